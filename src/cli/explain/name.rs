@@ -38,7 +38,7 @@ pub(super) fn explain(what: &str) -> Exit {
         let near = nearest_name(what, names.iter().map(String::as_str));
         let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
         say(&format!(
-            "error: nothing is called `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
+            "error: there is no name `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
              names; flags and the words of the error card can be asked for too, such as `jostle explain critical tick`"
         ));
         return Exit::Usage;

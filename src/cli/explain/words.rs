@@ -1,6 +1,6 @@
-//! The words of the error card, and of what `jostle bench` measures.
+//! The words of the error card, and of the measurements of `jostle bench`.
 
-/// A word and what it means.
+/// A word and its meaning.
 pub(super) struct Word {
     /// The word, and others for the same, separated by commas.
     pub word: &'static str,
@@ -11,7 +11,7 @@ const fn word(word: &'static str, meaning: &'static str) -> Word {
     Word { word, meaning }
 }
 
-/// Every row of the card, and what stands in it.
+/// Every row of the card, with its meaning.
 pub(super) const WORDS: &[Word] = &[
     word(
         "method",
@@ -52,9 +52,9 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "horizon",
-        "the time in seconds up to which places can be told: from then on runs with a finer tick are elsewhere by a tenth of the \
-         motion, or were not made, as a note says. `Reference` runs tell when rounding alone has grown to a thousandth of it, which no engine can tell beyond. `null` in \
-         `--json` where there is none.",
+        "the time in seconds up to which places can be told. After it, runs with a finer tick are elsewhere by a tenth of the \
+         motion, or were not made, as a note says. `Reference` runs tell when rounding alone has grown to a thousandth of the \
+         motion: no engine can tell places after that. `--json` writes `null` if there is none.",
     ),
     word(
         "chaos",
@@ -63,8 +63,8 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "what went round",
-        "the energy in J that the residual is compared with: motion and springs at their greatest as far as they were looked \
-         at, what fields released, what was lost, and the work of drives whichever way it went.",
+        "the energy in J that the residual is compared with. It has four parts: the greatest energy of motion and springs \
+         that was seen, the energy that fields released, the energy lost, and the work of drives in either direction.",
     ),
     word(
         "real time",
@@ -72,15 +72,15 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "ns per atom and tick",
-        "the cost of the run on your computer, nanoseconds for each atom and tick; to compare scenes and machines by.",
+        "the cost of the run on your computer, in nanoseconds for each atom and tick. It compares scenes and machines.",
     ),
     word(
         "energy",
-        "what is there in the end, in J: kinetic, potential (gravity and other fields) and elastic (in springs and contacts).",
+        "the energy at the end, in J: kinetic, potential (gravity and other fields) and elastic (in springs and contacts).",
     ),
     word(
         "energy lost",
-        "what has gone, in J: to friction, to the inelasticity of contacts, to drag. It is booked where it is lost.",
+        "the energy in J that friction, the inelasticity of contacts and drag have taken. Each of them books its own loss.",
     ),
     word(
         "work of drives",
@@ -88,27 +88,27 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "energy residual",
-        "energy in the end, and what was lost, less the energy at the start and the work of drives: what the books do not \
-         account for, in J. It is the error of the integration, and should be small beside the energy that went round; a \
-         tick half as long makes it smaller.",
+        "the energy in J that the accounts miss: energy at the end and energy lost, less the energy at the start and the work \
+         of drives. It is the error of the integration, and should be small beside the energy that went round. A shorter \
+         tick makes it smaller.",
     ),
     word(
         "momentum residual",
-        "momentum in the end less that at the start and the impulse from outside, per axis in N s, and the same for angular \
-         momentum in N m s. Forces come in pairs, so it is rounding. But from tick to tick, a joint that stays at its limit is put \
-         back onto it: that may change the angular momentum, the less the shorter the tick.",
+        "momentum at the end less that at the start and the impulse from outside, per axis in N s, and the same for angular \
+         momentum in N m s. Forces come in pairs, so it is rounding. One thing adds to it: each tick puts a joint that stays at \
+         its limit back onto it. That may change the angular momentum, and a shorter tick changes it less.",
     ),
     word(
         "largest overlap",
         "how deep two bodies, or a body and a wall, were in each other at worst, in m and as a share of the smaller radius. Another \
          pair may have a greater share: then that stands in `largest share`. \
-         Contacts are springs, so some overlap is what carries the load; a higher `stiffness` makes it smaller, and asks for \
+         Contacts are springs, so some overlap carries the load. A higher `stiffness` makes it smaller, and asks for \
          a shorter tick.",
     ),
     word(
         "joint drift",
-        "how far a joint was at most from what it holds, in m, angles at the farthest point of a body. Each step ends on what joints \
-         hold, so it is rounding and nothing else. It says nothing of the error of the motion.",
+        "how far a joint was at most from its constraint, in m; angles count at the farthest point of a body. Each step ends on \
+         the constraints, so the drift is rounding and nothing else. It says nothing of the error of the motion.",
     ),
     word(
         "largest travel",
@@ -117,51 +117,52 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "rest",
-        "the state of bodies whose contacts bear every load: nothing moves at all, to the last bit, until something touches \
-         them or a load changes. It is found, not waited for, and no slow body is stopped. Where contacts lose nothing \
-         (`restitution: 1`) nothing comes to rest. The expectation `AtRest` looks whether bodies do; docs/methods.md has more \
-         under Rest.",
+        "the state of bodies whose contacts bear every load: nothing moves at all, to the last bit, until a body touches \
+         them or a load changes. The engine computes whether contacts can bear the load, and stops no slow body. If contacts \
+         lose nothing (`restitution: 1`), no body comes to rest. The expectation `AtRest` looks whether bodies rest; \
+         docs/methods.md has more under Rest.",
     ),
     word(
         "asleep, sleep",
-        "bodies at rest are asleep where no force changes with time or motion (gravity and contacts alone; no belt, no \
+        "the state of bodies at rest if no force changes with time or motion (gravity and contacts alone; no belt, no \
          prescribed body): ticks leave them out, so they cost nothing, and a touch wakes them. No speed or time is set for \
-         it, and there is nothing to switch on or off: where bodies stay and what wakes them is as it would be without. Where \
-         fewer than one in sixteen of those that move by forces rest, ticks go over all of them, which is cheaper.",
+         it, and it has no switch: bodies come to the same places and leave them at the same times without it. If \
+         fewer than one in sixteen of the bodies that move by forces rest, ticks go over all of them, which is cheaper.",
     ),
     word(
         "free flight, flight",
-        "discs that touch nothing, and on which nothing but gravity acts, are moved along their parabolas at once instead of tick by \
-         tick, under `VelocityVerlet` with events at the ends of ticks, where they are most of all bodies. When two of them \
-         meet is known beforehand, so they cost nothing until then, and rounding is less than that of the ticks. There is \
-         nothing to switch on or off. What looks at bodies changes nothing; a plugin that writes into the packed state, or takes \
-         it as if it would, has all bodies moved tick by tick again until the next lists of pairs.",
+        "the motion of discs that touch nothing, and on which gravity alone acts: they move along their parabolas at once \
+         instead of tick by tick. This happens under `VelocityVerlet` with events at the ends of ticks, if such discs are most of \
+         all bodies. The engine knows beforehand when two of them meet, so they cost nothing until then, and rounding is less than \
+         that of the ticks. It has no switch. A system that only reads bodies changes nothing. If a plugin borrows the packed \
+         state to write, all bodies move tick by tick until the next lists of pairs.",
     ),
     word(
         "vector instructions",
         "instructions of the processor that work on two, four or eight numbers at once (levels `baseline`, `avx2` and \
-         `avx512`; `scalar`: on one). All commands that run scenes take the best the processor has, or what `--simd LEVEL` \
-         says; the results are the same to the bit at all of them. A level that the processor lacks is refused.",
+         `avx512`; `scalar`: on one). All commands that run scenes take the best level of the processor, or the one that \
+         `--simd LEVEL` names; the results are the same to the bit at all of them. A level that the processor lacks is refused.",
     ),
     word(
         "verdict",
-        "the last sentences of the card: what of the run can be trusted, then what cannot, with body and time where that began, and \
-         then what would help. `Trust it`: nothing that the engine looks for was found. `Do not trust it`: what was computed is not \
-         the scene, for the cause that is told. Else energy, statistics, rest and places are trusted as far as nothing speaks against \
-         them. `The model at contacts` is doubted where bodies overlap by more than half a radius: softer contacts than those of the \
-         scene's things. Causes come before what they bring about: a tick above the critical one, overlaps at the start, drag, places \
-         too far from the origin, forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, brief contacts, \
-         travel beyond a radius, chaos, a tick too long for the motion, places that no estimate tells.",
+        "the last sentences of the card. They tell which parts of the run can be trusted, then which cannot, with the body and time \
+         at which that began, and then a remedy. `Trust it`: the engine looked for causes of doubt and found none. `Do not trust \
+         it`: the run does not compute the scene, for the cause that is told. Otherwise energy, statistics, rest and places are \
+         trusted as far as no cause speaks against them. `The model at contacts` is doubted if bodies overlap by more than half a \
+         radius: such contacts are too soft for the things of the scene. Causes come before their effects: a tick above the critical \
+         one, overlaps at the start, drag, places too far from the origin, forces that swing too fast, missing energy, a tolerance \
+         not reached, deep overlaps, brief contacts, travel beyond a radius, chaos, a tick too long for the motion, places that no \
+         estimate tells.",
     ),
     word(
         "error",
-        "how far the run is from the exact solution, as the engine estimates it: `tick` by the same run with finer steps, \
-         as far as that takes 3 % of the work or half a second (`--estimate` takes all it needs, `--no-estimate` none); \
-         `rounding` by runs with wrong last bits (`--rounding`); `model` by a run with contacts four times as stiff \
-         (`--model`). In `--json` these are `discretisation`, `rounding` and `model`; under a `tolerance` and `Reference` the runs that find \
-         the steps tell the first. Places: the greatest distance of any point of a body, in m; velocities: the root of its mean square \
-         over time, in m/s. `until t = ..`: the error is that until then; finer runs go elsewhere from then on, as chaotic ones \
-         do, or were not made for longer, as a note says.",
+        "how far the run is from the exact solution, as the engine estimates it. `tick` comes from the same run with finer steps, \
+         as far as that takes 3 % of the work or half a second (`--estimate` takes all it needs, `--no-estimate` none). \
+         `rounding` comes from runs with wrong last bits (`--rounding`), and `model` from a run with contacts four times as stiff \
+         (`--model`). In `--json` these are `discretisation`, `rounding` and `model`. Under a `tolerance` and `Reference` the runs \
+         that find the steps tell the first. Places: the greatest distance of any point of a body, in m. Velocities: the root of \
+         its mean square over time, in m/s. `until t = ..`: the error is that until then. After it, finer runs go elsewhere, as \
+         chaotic ones do, or were not made, as a note says.",
     ),
     word(
         "state hash",
@@ -170,8 +171,8 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "note",
-        "a choice the engine made, a limit it applied, or something the scene should be warned of. Nothing is chosen, \
-         clamped or left out without one.",
+        "a choice the engine made, a limit it applied, or a warning about the scene. The engine chooses, \
+         clamps and leaves out nothing without one.",
     ),
     word(
         "near",
@@ -180,12 +181,12 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "scatter",
-        "how much longer the slowest round took than the fastest, as a share of the median (`jostle bench`): what the computer \
-         did beside, and what changed in the scene while it ran.",
+        "how much longer the slowest round took than the fastest, as a share of the median (`jostle bench`). It comes from other \
+         work of the computer, and from changes in the scene during the run.",
     ),
     word(
         "plain loop",
-        "what `jostle bench` runs beside the engine from the same state: arrays, a grid of cells, springs with dashpots and \
+        "the program that `jostle bench` runs beside the engine from the same state: arrays, a grid of cells, springs with dashpots and \
          friction, velocity Verlet, without accounts, rest and vector instructions. `x plain` is the time of the engine over \
          that of this loop, `plain` its nanoseconds per atom and tick.",
     ),

@@ -52,7 +52,7 @@ fn note(setting: &Setting) -> String {
                 Wrong::Behind(_) => format!("`{}` comes through `{}` from behind", failure.body, failure.other),
                 Wrong::Sunk(_) => format!("corners sink too deep, between `{}` and `{}`", failure.body, failure.other),
                 Wrong::NotFinite(quantity) => {
-                    format!("the {quantity} of `{}` is no longer a finite number", failure.body)
+                    format!("the {quantity} of `{}` is infinite or NaN", failure.body)
                 }
                 Wrong::Steps(step) => format!("steps have become as short as {step:.1e} s near `{}`", failure.body),
                 Wrong::Contradiction => format!("motors and joints ask for different motions of `{}`", failure.body),
@@ -103,7 +103,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
     let _ = writeln!(text, "Error: {NORM}.");
     let _ = writeln!(
         text,
-        "s/s and evaluations/s: seconds, and evaluations of all forces, per second of physics. A star: nothing is more exact for \
+        "s/s and evaluations/s: seconds, and evaluations of all forces, per second of physics. A star: no other setting is more exact for \
          less {}.",
         cost(measured)
     );
@@ -111,7 +111,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
         Ok(reference) => {
             let _ = writeln!(
                 text,
-                "Reference: {}; its own error is about {:.0e} at most, and none below {:.0e} is claimed.",
+                "Reference: {}; its own error is about {:.0e} at most, and no error below {:.0e} is claimed.",
                 reference.words,
                 reference.floor,
                 reference.claim()
@@ -197,11 +197,10 @@ fn told(measured: &Measured, advice: &Advice) -> (&'static str, String) {
         (Some(setting), _) => ("for an error of", price(setting)),
         (None, Some(setting)) => {
             let below = measured.reference.as_ref().is_ok_and(|reference| reference.claim() > advice.target);
-            let why =
-                if below { "the reference run does not tell so small errors" } else { "nothing tried reaches it" };
+            let why = if below { "the reference run does not tell so small errors" } else { "no setting reaches it" };
             ("for", format!("{why}, nearest comes {}", price(setting)))
         }
-        (None, None) => ("for", "nothing tried is of any use".to_owned()),
+        (None, None) => ("for", "no setting is useful".to_owned()),
     }
 }
 
