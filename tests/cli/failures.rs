@@ -27,7 +27,7 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
         .jostle("run over.ron")
         .code(3)
         .says("error: over.ron: the run went wrong: the ")
-        .says(" of `ball` is no longer a finite number at t = 1.")
+        .says(" of `ball` is infinite or NaN at t = 1.")
         .says(
             "help: numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses \
              near zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick 0.0025`\n",
@@ -39,7 +39,7 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
 fn a_run_whose_energy_is_no_number_ends_with_that() {
     let fast = "Scene(format: 1, clock: (duration: 1, tick: 0.001),
         bodies: [(name: \"ray\", at: (0, 0), velocity: (1e200, 0), atoms: Disc(radius: 0.1))])";
-    let told = "the kinetic energy of `ray` is no longer a finite number";
+    let told = "the kinetic energy of `ray` is infinite or NaN";
     Folder::new("fast").with("fast.ron", fast).jostle("run fast.ron").code(3).says(told);
 }
 

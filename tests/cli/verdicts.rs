@@ -175,7 +175,7 @@ const BROKEN: [Broken; 27] = [
         r#"clock: (duration: 2, tick: 0.01, method: VelocityVerlet), forces: [Thrust(of: "ball", force: (1e308, 0), from: 1)],
            bodies: [(name: "ball", at: (0, 0), atoms: Disc(radius: 0.1, mass: 0.001))]"#,
         "",
-        &["`ball`", "no longer a finite number", "enormous"],
+        &["`ball`", "infinite or NaN", "enormous"],
     ),
     (
         "two bodies that fall into each other",

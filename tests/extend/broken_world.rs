@@ -235,7 +235,8 @@ fn a_component_that_a_body_has_lost_is_named() {
     });
     let failure = ran.unwrap_err();
     assert_eq!((failure.body.as_str(), failure.wrong), ("ball", Wrong::Lost("Mass")));
-    assert!(failure.to_string().contains("`ball` has lost its component `Mass`: put it back"), "{failure}");
+    let said = failure.to_string();
+    assert!(said.contains("`ball` has lost its component `Mass` at t = ") && said.contains(": put it back"), "{said}");
     ask_everything(&mut simulation);
     let ball = simulation.bodies().entity[0];
     simulation.world_mut().despawn(ball);

@@ -91,7 +91,7 @@ impl Failure {
 impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { body, other, wrong, tick, time } = self;
-        match wrong {
+        let why = match wrong {
             Wrong::Gone(name) => {
                 return write!(
                     f,
@@ -99,63 +99,70 @@ impl std::fmt::Display for Failure {
                 );
             }
             Wrong::Pairs(most) => {
-                write!(
-                    f,
-                    "more than {most} pairs of atoms lie near each other, most of them of `{body}`: so many contacts do not fit \
-                     into memory,"
-                )?;
+                write!(f, "more than {most} pairs of atoms lie near each other, most of them of `{body}`,")?;
+                ": so many contacts do not fit into memory".to_owned()
             }
             Wrong::Torn(list) => {
                 write!(
                     f,
-                    "a system has left the packed list `{list}` of bodies in a state that does not fit the others: change \
-                     items, and spawn or despawn entities in place of lengths,"
+                    "a system has left the packed list `{list}` of bodies in a state that does not fit the others"
                 )?;
+                ": change items alone; spawn or despawn entities to change lengths".to_owned()
             }
             Wrong::Lost(component) => {
-                write!(f, "`{body}` has lost its component `{component}`: put it back, or despawn the body,")?;
+                write!(f, "`{body}` has lost its component `{component}`")?;
+                ": put it back, or despawn the body".to_owned()
             }
-            Wrong::NotFinite(quantity) => write!(f, "the {quantity} of `{body}` is no longer a finite number")?,
+            Wrong::NotFinite(quantity) => {
+                write!(f, "the {quantity} of `{body}` is infinite or NaN")?;
+                String::new()
+            }
             Wrong::Steps(step) => {
                 let short =
                     if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
-                write!(f, "steps have become {short}, for the acceleration of `{body}` grows beyond all bounds,")?;
+                write!(f, "steps have become {short}")?;
+                format!(": the acceleration of `{body}` grows beyond all bounds")
             }
             Wrong::Joint { meters, dead } => {
-                let gap = number(*meters);
-                let why = match dead {
-                    true => "its loop is at a dead point, where bars are in line and the way on is not determined",
-                    false => "its bodies turn too far in a step",
-                };
-                write!(f, "a joint of `{body}` cannot be closed, {gap} m are left: {why},")?;
+                write!(f, "a joint of `{body}` cannot be closed, {} m are left,", number(*meters))?;
+                match dead {
+                    true => ": its loop is at a dead point, where bars are in line and the way on is not determined"
+                        .to_owned(),
+                    false => ": its bodies turn too far in a step".to_owned(),
+                }
             }
-            Wrong::Crossed(_) => write!(
-                f,
-                "`{body}` has passed through `{other}`: its contact is too soft for that speed, or the tick too long; give it more \
-                 `stiffness`, a strip more `thickness`, or a shorter `tick`,"
-            )?,
-            Wrong::Behind(_) => write!(
-                f,
-                "`{body}` has come through `{other}` from behind, where it is open: only its other side holds what comes; let `{body}` \
-                 begin on that side, turn the points of `{other}` around, or give a strip `sides: Both`,"
-            )?,
-            Wrong::Sunk(_) => write!(
-                f,
-                "a sharp corner has sunk so deep, between `{body}` and `{other}`, that the side that it came through is not known: give \
-                 them a `rounding` of some hundredths of their size, or more `stiffness`,"
-            )?,
-            Wrong::Contradiction => write!(
-                f,
-                "motors and joints ask for different motions of `{body}`: no velocity suits them all; give a motor a `limit`,"
-            )?,
+            Wrong::Crossed(_) => {
+                write!(f, "`{body}` has passed through `{other}`")?;
+                ": its contact is too soft for that speed, or the tick too long; give it more `stiffness`, a strip more \
+                 `thickness`, or a shorter `tick`"
+                    .to_owned()
+            }
+            Wrong::Behind(_) => {
+                write!(f, "`{body}` has come through `{other}` from behind, where it is open,")?;
+                format!(
+                    ": only its other side holds bodies; let `{body}` begin on that side, turn the points of `{other}` \
+                     around, or give a strip `sides: Both`"
+                )
+            }
+            Wrong::Sunk(_) => {
+                write!(f, "a sharp corner has sunk too deep between `{body}` and `{other}`")?;
+                ": the side that it came through is not known; give them a `rounding` of some hundredths of their size, \
+                 or more `stiffness`"
+                    .to_owned()
+            }
+            Wrong::Contradiction => {
+                write!(f, "motors and joints ask for different motions of `{body}`")?;
+                ": no velocity suits them all; give a motor a `limit`".to_owned()
+            }
             Wrong::Energy(Created { energy, put_in }) => {
                 write!(
                     f,
                     "energy came out of nowhere, {energy:.1e} J where {put_in:.1e} J were put in, most of it in `{body}`,"
                 )?;
+                String::new()
             }
-        }
-        write!(f, " at t = {} s (tick {tick})", number(*time))
+        };
+        write!(f, " at t = {} s (tick {tick}){why}", number(*time))
     }
 }
 

@@ -245,7 +245,7 @@ fn failure(setting: &Setting) -> Option<String> {
         Outcome::Measured(_) => None,
         Outcome::Failed(failure) => Some(failure.to_string()),
         Outcome::Refused(why) => Some(why.clone()),
-        Outcome::Unknown | Outcome::Stopped(_) => Some("the error is no number".to_owned()),
+        Outcome::Unknown | Outcome::Stopped(_) => Some("the error is infinite or NaN".to_owned()),
     }
 }
 

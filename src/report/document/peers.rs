@@ -41,7 +41,7 @@ impl Peers {
                 continue;
             }
             let number = |what: &str, text: &str| {
-                text.parse::<f64>().map_err(|_| format!("line {}: {what}: `{text}` is no number", index + 1))
+                text.parse::<f64>().map_err(|_| format!("line {}: {what}: `{text}` is not a number", index + 1))
             };
             rows.push(Row {
                 problem: problem.clone(),
@@ -133,6 +133,6 @@ mod tests {
     fn what_is_wrong_is_told_with_its_line() {
         assert!(Peers::read("x,y\n").unwrap_err().contains("line 1"));
         assert!(Peers::read(&format!("{HEAD}a,m,b\n")).unwrap_err().contains("line 2: 3 columns"));
-        assert!(Peers::read(&format!("{HEAD}a,m,b,1,d,0.1,x,1,\n")).unwrap_err().contains("`x` is no number"));
+        assert!(Peers::read(&format!("{HEAD}a,m,b,1,d,0.1,x,1,\n")).unwrap_err().contains("`x` is not a number"));
     }
 }

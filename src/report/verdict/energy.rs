@@ -12,7 +12,7 @@ pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let finite =
         [card.energy.residual, card.momentum_residual[0], card.momentum_residual[1]].iter().all(|x| x.is_finite());
-    let what = "numbers are no longer finite".to_owned();
+    let what = "numbers are infinite or NaN".to_owned();
     (!finite).then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
 }
 

@@ -129,7 +129,7 @@ impl Evidence<'_> {
         let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             if deep {
-                return "a contact bears more the stiffer it is, and sees what comes the better the finer the tick"
+                return "a stiffer contact bears more, and a finer tick sees bodies that come before they are deep inside"
                     .to_owned();
             }
             return energy::of_unknown_cause(self);

@@ -26,8 +26,10 @@ pub(super) fn attraction(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn of_endless_steps(evidence: &Evidence) -> String {
     match attracted(evidence) {
         Some((near, _)) => format!("{near} than steps can follow: use {REMEDY}"),
-        None => "a force grows beyond all bounds where bodies come near, or at that time: bound it, or give the scene a tick"
-            .to_owned(),
+        None => {
+            "a force grows beyond all bounds as bodies come near, or at that time: bound it, or give the scene a tick"
+                .to_owned()
+        }
     }
 }
 

@@ -77,7 +77,7 @@ pub(super) fn far_travel_unseen(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let share = card.largest_travel_share;
     let who = far_travel(world.resource())
-        .map_or_else(|| "something".to_owned(), |far| format!("`{}` at {}", evidence.name(far.body), at(far.time)));
+        .map_or_else(|| "a body".to_owned(), |far| format!("`{}` at {}", evidence.name(far.body), at(far.time)));
     let what = format!("{who} travelled {share:.1} radii in one tick and may have missed a contact");
     let unseen = world.resource::<State>().contact_law().is_some() && !card.located;
     (share > 1.0 && unseen).then(|| Cause { trust: Trust::ButNot(Part::Meetings), what, remedy: evidence.finer() })

@@ -38,7 +38,7 @@ pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     }
     let body = estimated.began.as_ref().map_or_else(|| "places".to_owned(), |(body, _)| format!("`{body}` first"));
     let what = format!(
-        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}; what a finer tick gains grows as \
+        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}; the gain of a finer tick grows as \
          the logarithm of its cost"
     );
     estimated.chaotic.then_some(Cause { trust: Trust::ButNot(Part::PlacesAfter(horizon)), what, remedy: None })
@@ -82,7 +82,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 /// Only the beginning was run again with finer steps.
 pub(super) fn not_run_again(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.known_until().filter(|_| !evidence.card.stands)?;
-    let what = "nothing is known of them, as only what is before was run again with finer steps".to_owned();
+    let what = "their error is not known, as only the time before was run again with finer steps".to_owned();
     Some(Cause {
         trust: Trust::ButNot(Part::UnknownAfter(until)),
         what,
@@ -106,7 +106,7 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
         }
         Some(_) => None,
         None if card.by_ticks() => {
-            let what = "how wrong they are is not known, as energy says nothing of a light body among heavy ones";
+            let what = "their error is not known, as energy says nothing of a light body among heavy ones";
             cause(Part::UnknownPlaces, what, Some("`--estimate`"))
         }
         None => cause(Part::Places, "runs of it differ by more than can be told", None),

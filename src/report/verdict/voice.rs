@@ -84,8 +84,8 @@ fn praise(evidence: &Evidence) -> String {
             return format!("Trust it: {places}, as several runs of it tell.");
         }
         return format!(
-            "Trust it: {places} at most. A run that allows a hundred times the error differs by that; where motion is smooth this \
-             one is nearer to the truth by as much."
+            "Trust it: {places} at most. A run that allows a hundred times the error differs by that. If the motion is \
+             smooth, this one is nearer to the truth by as much."
         );
     }
     let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
