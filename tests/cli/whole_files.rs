@@ -96,7 +96,7 @@ fn a_full_disk_leaves_the_old_file_and_is_told() {
         let parts = folder.without_parts(name);
         assert_eq!(parts.len(), usize::from(is_of_use), "{said}");
         assert_eq!(folder.names(), [name], "{said}");
-        let place = parts.iter().all(|part| said.contains(&format!("What was written so far is in `{part}`")));
+        let place = parts.iter().all(|part| said.contains(&format!("The part written so far is in `{part}`")));
         assert!(place && said.contains("so far") == is_of_use, "{said}");
     }
 }
@@ -135,7 +135,7 @@ fn a_full_or_closed_standard_output_is_told() {
     let said = String::from_utf8(output.stderr).unwrap();
     assert_eq!(output.status.code(), Some(2), "{said}");
     assert!(said.contains("`standard output` could not be written: Broken pipe"), "{said}");
-    assert!(said.contains("whoever read it went away before the film's end"), "{said}");
+    assert!(said.contains("the program that read it ended before the film"), "{said}");
 }
 
 /// Law: memory does not grow with the length of the film, forwards, backwards or within a size. Four times as many

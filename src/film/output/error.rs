@@ -137,7 +137,7 @@ impl fmt::Display for OutputError {
                     write!(f, "; {remedy}")?;
                 }
                 match kept {
-                    Some(kept) => write!(f, ". What was written so far is in `{}`", kept.display()),
+                    Some(kept) => write!(f, ". The part written so far is in `{}`", kept.display()),
                     None => Ok(()),
                 }
             }
@@ -173,7 +173,7 @@ fn remedy(kind: io::ErrorKind) -> Option<&'static str> {
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded | io::ErrorKind::FileTooLarge => {
             Some("free some space, choose another disk, or write less: a smaller or shorter film, fewer channels")
         }
-        io::ErrorKind::BrokenPipe => Some("whoever read it went away before the film's end"),
+        io::ErrorKind::BrokenPipe => Some("the program that read it ended before the film"),
         _ => None,
     }
 }

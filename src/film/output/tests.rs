@@ -358,7 +358,7 @@ fn a_broken_sequence_says_where_its_frames_are() {
     let mut film = begin(&PathBuf::from(format!("{}/", folder.0.display())), 1).expect("pictures");
     let refused = frames(20).into_iter().find_map(|frame| film.push(frame).err()).expect("in the way");
     let said = refused.to_string();
-    assert!(said.contains("frame_00006.png") && said.contains("What was written so far is in"), "{said}");
+    assert!(said.contains("frame_00006.png") && said.contains("The part written so far is in"), "{said}");
     assert!(matches!(film.finish(), Err(OutputError::GivenUp { .. })));
     let names = folder.names();
     assert!(names.iter().all(|name| name.ends_with(".png")), "{names:?}");
