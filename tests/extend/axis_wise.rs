@@ -225,7 +225,7 @@ fn a_law_that_does_not_tell_who_touches_is_noted() {
             .expect("it is right");
         simulation.run_to_end().expect("numbers stay finite");
         let notes = simulation.card().notes;
-        notes.iter().filter(|note| note.contains("`AxisWise` does not tell who touches")).count()
+        notes.iter().filter(|note| note.contains("`AxisWise` does not tell which bodies touch")).count()
     };
     assert_eq!(noted("sensors: [Contacts(of: \"ball\")],"), 1);
     assert_eq!(noted(""), 0);

@@ -37,7 +37,7 @@ fn the_deepest_overlap_is_told_with_names_and_remedy() {
         notes(&pair),
         [
             "at the start `a` and `b` overlap by 0.25 m, 50 % of the smaller radius: their contacts begin compressed and push \
-             apart what no load holds; if that is not meant, move them apart, make them smaller, or give them `collides: false`"
+             bodies apart that no load holds; if that is not meant, move them apart, make them smaller, or give them `collides: false`"
         ]
     );
     // A clump is one body however many of its atoms overlap, and a wall counts as well.

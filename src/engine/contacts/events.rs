@@ -86,8 +86,9 @@ fn find_contact_events(
     if let Some(name) = law.filter(|_| !touches.told && !*warned) {
         *warned = true;
         if let Some(mut notes) = notes {
-            let note =
-                format!("contacts: `{name}` does not tell who touches: contact events and `Contacts` see nothing");
+            let note = format!(
+                "contacts: `{name}` does not tell which bodies touch: contact events and `Contacts` see nothing"
+            );
             notes.0.push(note);
         }
     }

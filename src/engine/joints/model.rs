@@ -370,7 +370,7 @@ impl Model for Joint {
         if !(first && state.rows().is_dependent()) {
             return remarks;
         }
-        remarks.push("some rows of joints follow from others: the motion is exact, but forces may share the load in many ways; told are those of least \
+        remarks.push("some rows of joints follow from others: the motion is exact, but forces may share the load in many ways; the engine takes those of least \
               norm".to_owned());
         remarks
     }

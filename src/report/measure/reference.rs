@@ -244,7 +244,7 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
         why_until: None,
         scatter: None,
         warning: Some(format!(
-            "{why}: the reference is a run of velocity Verlet with fine ticks, and the floor what one with twice the tick differs by"
+            "{why}: the reference is a run of velocity Verlet with fine ticks, and the floor is its difference from a run with twice the tick"
         )),
     };
     compared((&coarse, None), fine, about, scene.duration, &|_| 1.0)
@@ -270,7 +270,7 @@ fn compared(
     let mut until = about.until;
     if let Some(horizon) = about.horizon.filter(|_| until < duration) {
         about.why_until = Some(format!(
-            "the motion is chaotic: rounding alone shows after about {} s, and nobody knows places beyond that",
+            "the motion is chaotic: rounding alone shows after about {} s, and no run tells places beyond that",
             number(horizon)
         ));
     }

@@ -147,7 +147,7 @@ pub(super) fn note_overlaps(world: &mut World) {
         ),
     };
     let note = format!(
-        "at the start {who}: their contacts begin compressed and push apart what no load holds; if that is not meant, move them \
+        "at the start {who}: their contacts begin compressed and push bodies apart that no load holds; if that is not meant, move them \
          apart, make them smaller, or give them `collides: false`"
     );
     world.resource_mut::<Notes>().0.push(note);

@@ -72,7 +72,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         // Stretches of whole ticks are alike in both runs.
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
         plan.warning = Some(
-            "events were too many to be located one by one in some ticks, where the runs that are compared are alike: their \
+            "some ticks had too many events to locate them one by one, and the compared runs are alike there: their \
              error is not known; write a tick, and compare with a tenth of it"
                 .to_owned(),
         );
@@ -80,8 +80,8 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
     } else if coarse.bounded && fine.bounded && error.distance < ALIKE * fine.farthest() {
         plan.warning = Some(format!(
-            "rounding of places {} m from the origin bounds the steps of bodies that go {} m: the two runs are alike, and what \
-             they differ by is no error; move the scene to the origin",
+            "rounding of places {} m from the origin bounds the steps of bodies that go {} m: the two runs are alike, and their \
+             difference is no error; move the scene to the origin",
             number(fine.farthest()),
             number(distance)
         ));
