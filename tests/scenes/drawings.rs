@@ -88,7 +88,7 @@ fn a_drawing_that_is_no_shape_is_refused() {
     let square = "<rect width=\"4\" height=\"4\"/>";
     for (body, fields, words) in [
         (square, "file: \"path.svg\", height: 1", "there is no file `path.svg`"),
-        (square, "file: \"part.svg\"", "how large the drawing becomes is missing"),
+        (square, "file: \"part.svg\"", "the field `height` or `unit` is missing"),
         (square, "file: \"part.svg\", height: 1, unit: 1", "cannot both be given"),
         (square, "file: \"part.svg\", height: -1", "must be above zero"),
         (square, "file: \"part.svg\", height: 1, scale: 2", "scale"),

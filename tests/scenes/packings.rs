@@ -113,10 +113,10 @@ fn tables_that_are_wrong_are_told_with_line_and_column() {
         ("latin.csv", "line 3 of `latin.csv` is no UTF-8 text", "it has to be a table"),
         ("plain.csv.gz", "cannot read `plain.csv.gz`: ", "that it is a table"),
         ("radius.csv", "line 3 of `radius.csv`, column `radius`, must be above zero, got -1", "radius in metres"),
-        ("word.csv", "line 2 of `word.csv`, column `y`, is no number: `zero`", "SI units"),
+        ("word.csv", "line 2 of `word.csv`, column `y`, is not a number: `zero`", "SI units"),
         ("column.csv", "line 1 of `column.csv`, column `radius`, is missing", "`x,y,radius`"),
         ("half.csv", "line 1 of `half.csv`, column `vy`, is missing, although there is `vx`", "add the column `vy`"),
-        ("huge.csv", "grain_0: its mass, place or velocity is too large to be a number", "a zero too many"),
+        ("huge.csv", "grain_0: its mass, place or velocity is infinite", "a zero too many"),
     ] {
         let entry = format!("(name: \"grain\", file: \"{file}\")");
         let errors = Simulation::load(&scene(&folder, &entry, "")).err().unwrap_or_else(|| panic!("{file} is good"));

@@ -121,7 +121,9 @@ impl Entry for Drive {
             report.error("", "this drive pushes nothing").help("give `force: (2, 0)`, `torque: 0.05` or both");
         }
         if self.force.is_none() && self.at.is_some() {
-            report.error("at", "`at` is where a force acts, and there is none").help("give `force`, or remove `at`");
+            report
+                .error("at", "`at` is the point of action of a force, and this drive has no force")
+                .help("give `force`, or remove `at`");
         }
         report.within("course", |report| self.course.check(report));
     }
@@ -152,7 +154,7 @@ impl Course {
                     report.not_negative("angular_frequency", *angular_frequency);
                 }
                 if frequency.is_some() == angular_frequency.is_some() {
-                    let message = "either `frequency` or `angular_frequency` says how fast it is";
+                    let message = "a sine has either `frequency` or `angular_frequency`";
                     report.error("", message).help("for example `Sine(frequency: \"1.5 Hz\")`");
                 }
             }
@@ -329,7 +331,7 @@ impl Model for DriveForce {
         }
         let (path, shares) = (&self.path, shares.join(" and "));
         let what = format!(
-            "points of the course of `{path}` lie between ticks, where it is not seen: of its impulse {shares}"
+            "points of the course of `{path}` lie between ticks, which do not see them: of its impulse {shares}"
         );
         vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
     }

@@ -171,7 +171,7 @@ impl AimedBody {
             }
             Err(Miss::Never) => {
                 let message = format!("no way to ({}, {}) was found at this speed", number(at.x), number(at.y));
-                wrong("at", message, "aim nearer, or let the drag be less".into())
+                wrong("at", message, "aim nearer, or reduce the drag".into())
             }
             Err(Miss::OneWay) => {
                 let message = "without gravity there is one way to the place, not two".to_owned();

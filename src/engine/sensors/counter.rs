@@ -88,7 +88,7 @@ impl Entry for Counter {
                 report.error("gate", "`touching` and `gate` cannot both be given").help(help);
             }
             (None, None) => {
-                report.error("", "what is counted is missing").help(help);
+                report.error("", "the field `touching` or `gate` is missing").help(help);
             }
             _ => {}
         }

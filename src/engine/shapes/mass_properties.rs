@@ -100,7 +100,7 @@ impl MassProperties {
     pub fn check(&self, report: &mut Diagnostics) {
         let sizes = [self.mass, self.inertia, self.center.x, self.center.y];
         if report.is_clean() && !sizes.iter().all(|size| size.is_finite()) {
-            let message = "its mass or moment of inertia is too large to be a number";
+            let message = "its mass or moment of inertia is infinite";
             report.error("atoms", message).help("sizes are in metres and masses in kg: look for a zero too many");
         }
     }

@@ -68,7 +68,7 @@ impl Png {
                 let message = if self.count.is_some() {
                     "`count` and `radius` cannot both be given"
                 } else {
-                    "how fine the atoms are is missing"
+                    "the field `count` or `radius` is missing"
                 };
                 let help = "`count: 60` covers the silhouette with discs of different sizes, `radius: \"2 cm\"` with equal ones";
                 report.error("", message).help(help);

@@ -278,7 +278,7 @@ fn count(
     let exact = duration / dt;
     if exact > MOST_TICKS {
         // A quotient beyond the largest number cannot be shown.
-        let many = if exact.is_finite() { format!("{exact:.1e} ticks") } else { "beyond counting".to_owned() };
+        let many = if exact.is_finite() { format!("{exact:.1e} ticks") } else { "infinitely many".to_owned() };
         let path = match (overrides.duration, overrides.tick) {
             (Some(_), _) => "--duration",
             (None, Some(_)) => "--tick",
@@ -377,10 +377,9 @@ fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
         return Ok(coarsest);
     }
     if !wanted.is_normal() {
-        let error = SceneError::new(
-            "clock",
-            format!("no tick is short enough for the fastest {what}, which vibrates at {omega:?} rad/s"),
-        );
+        let fast = if omega.is_finite() { format!("at {omega:?} rad/s") } else { "infinitely fast".to_owned() };
+        let message = format!("no tick is short enough for the fastest {what}, which vibrates {fast}");
+        let error = SceneError::new("clock", message);
         return Err(Box::new(error.with_help("give the bodies less `stiffness` or more mass, or give a `tick`")));
     }
     let exponent = wanted.log10().floor() as i32;

@@ -40,7 +40,7 @@ impl Lexer<'_> {
                 let bare = word.trim_matches('"');
                 return Err(self
                     .fault("field names stand without quotes", before.clone(), "a field name in quotes")
-                    .help(format!("write `{bare}: ..`; where you choose the names, `{{ \"{bare}\": .. }}`")));
+                    .help(format!("write `{bare}: ..`; if you choose the names, `{{ \"{bare}\": .. }}`")));
             }
         }
         if before_form == Some(Form::Word) && matches!(found, '[' | '{') {

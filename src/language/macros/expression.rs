@@ -98,8 +98,8 @@ fn slip(rest: &str) -> Option<&'static str> {
     const SLIPS: [(&str, &str); 4] = [
         ("**", "a power is written `2 ^ i`"),
         ("=", "two values are compared by `==`, as in `if(mod(i, 2) == 0, 1, 2)`"),
-        ("&", "that two things hold is written `a * b`: comparisons are 1 or 0"),
-        ("|", "that one of two things holds is written `max(a, b)`: comparisons are 1 or 0"),
+        ("&", "to ask for two conditions, write `a * b`: comparisons are 1 or 0"),
+        ("|", "to ask for one of two conditions, write `max(a, b)`: comparisons are 1 or 0"),
     ];
     SLIPS.into_iter().find(|(sign, _)| rest.starts_with(sign)).map(|(_, help)| help)
 }

@@ -30,7 +30,7 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
     let value = decimal(number, size.exponent).map(|value| value * size.factor);
     match value {
         Some(value) if value.is_finite() => Ok(value),
-        _ => Err(format!("`{trimmed}` is too large for a number; expected {name} such as {example}")),
+        _ => Err(format!("`{trimmed}` is infinite, above 1.8e308; expected {name} such as {example}")),
     }
 }
 
@@ -38,7 +38,7 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
 pub(crate) fn value_in(number: &str, unit: &str) -> Result<(f64, Powers), String> {
     let size = if unit.is_empty() { Size::default() } else { product(unit)? };
     let value = decimal(number, size.exponent).map(|value| value * size.factor).filter(|value| value.is_finite());
-    value.map(|value| (value, size.powers)).ok_or_else(|| format!("`{number} {unit}` is too large for a number"))
+    value.map(|value| (value, size.powers)).ok_or_else(|| format!("`{number} {unit}` is infinite, above 1.8e308"))
 }
 
 /// Whether a text is a number by itself, with or without a unit.
@@ -297,7 +297,7 @@ mod tests {
         assert_eq!(length("3 metres"), format!("unknown unit `metres` (did you mean `m`?) in \"3 metres\"; {such}"));
         assert_eq!(length("3 CM"), format!("unknown unit `CM` (did you mean `cm`?) in \"3 CM\"; {such}"));
         assert_eq!(length("3 furlong"), format!("unknown unit `furlong` in \"3 furlong\"; {such}"));
-        assert_eq!(length("1e400 m"), format!("`1e400 m` is too large for a number; {such}"));
+        assert_eq!(length("1e400 m"), format!("`1e400 m` is infinite, above 1.8e308; {such}"));
         assert_eq!(length("NaN m"), format!("{such}, found the text \"NaN m\""));
         assert_eq!(length("3 m//s"), format!("`m//s` is not a unit in \"3 m//s\"; {such}"));
         assert!(Damping::parse("1 N/m s").unwrap_err().contains("reads two ways"));

@@ -78,11 +78,11 @@ impl FreezeEntry {
             }
             (Some(_), Some(_)) => {
                 let help = "leave out `at` to wait for the contact, or `touch` to give the time";
-                report.error("", "has two moments, `at` and `touch`").help(help);
+                report.error("", "`at` and `touch` cannot both be given").help(help);
             }
             (None, None) => {
                 let help = "add `at: 1.5` (s of physics) or `touch: (\"ball\", \"floor\")`";
-                report.error("", "says not when the film stands still").help(help);
+                report.error("", "the moment at which the film stands still is missing").help(help);
             }
         }
     }

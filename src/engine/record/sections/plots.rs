@@ -108,16 +108,16 @@ impl HistogramEntry {
             }
             (None, None, Some(channel)) => sensors::check_channel(channel, "channel", outline, report),
             (Some(_), None, None) => {
-                report.missing("quantity", "say what of them is counted: `quantity: \"position.x\"`")
+                report.missing("quantity", "name the quantity to count: `quantity: \"position.x\"`")
             }
-            (None, Some(_), None) => report.missing("of", "say of which bodies: `of: \"*\"`"),
+            (None, Some(_), None) => report.missing("of", "name the bodies: `of: \"*\"`"),
             (None, None, None) => {
                 let help = "write `of: \"ball_*\", quantity: \"position.x\"`, or `channel: \"ball.velocity.x\"`";
-                report.error("", "says not what is counted").help(help);
+                report.error("", "the bodies or the channel to count are missing").help(help);
             }
             (_, _, Some(_)) => {
                 let help = "leave out `channel`, or both `of` and `quantity`";
-                report.error("", "counts two things, bodies and a channel").help(help);
+                report.error("", "this histogram counts two things, bodies and a channel").help(help);
             }
         }
     }
@@ -179,16 +179,18 @@ impl PlotEntry {
             (false, false, false, false) => {
                 let help = "add `channels: [\"energy.total\"]`, or `x: \"ball.position.x\", y: \"ball.velocity.x\"`, or \
                             `histogram: (..)`";
-                report.error("", "says not what is plotted").help(help);
+                report.error("", "this plot names no channel").help(help);
             }
-            (false, true, false, false) => report.missing("y", "say what is plotted upwards: `y: \"ball.velocity.x\"`"),
+            (false, true, false, false) => {
+                report.missing("y", "name the channel of the vertical axis: `y: \"ball.velocity.x\"`")
+            }
             (false, false, true, false) => {
-                report.missing("x", "say against what: `x: \"ball.position.x\"`; against time it is `channels: [..]`");
+                report.missing("x", "name the channel of the horizontal axis: `x: \"ball.position.x\"`; a plot over time has `channels: [..]`");
             }
             _ => {
                 let help =
                     "a plot has `channels` (against time), or `x` and `y`, or `histogram`: write one plot for each";
-                report.error("", "is several plots in one").help(help);
+                report.error("", "this entry is several plots in one").help(help);
             }
         }
         let upward = self.upward();
@@ -210,7 +212,7 @@ impl PlotEntry {
             && self.log
             && low.si() <= 0.0
         {
-            report.error("range[0]", format!("must be above zero where `log` is true, got {}", low.si()));
+            report.error("range[0]", format!("must be above zero if `log` is true, got {}", low.si()));
         }
         if self.log && self.histogram.is_some() {
             report.error("log", "a histogram counts from zero, which `log` cannot show").help("leave out `log`");

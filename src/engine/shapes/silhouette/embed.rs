@@ -116,7 +116,7 @@ fn cover(mask: &Mask, fineness: Fineness, png: &Png) -> Result<Covering, Wrong> 
             return Err((message, "a larger `radius`, or `count` with discs of different sizes".into(), "radius"));
         }
         if radius < mask.resolution() {
-            let message = format!("the radius is smaller than what is told apart in the picture, {pixel:.3} m");
+            let message = format!("the radius is smaller than the finest detail of the picture, {pixel:.3} m");
             return Err((message, "a larger `radius`, or a thicker silhouette".into(), "radius"));
         }
     }

@@ -51,7 +51,7 @@ impl Mask {
             let found = if transparent { "nothing in it is half opaque" } else { "nothing in it is darker than grey" };
             (
                 format!("has no silhouette: {found}"),
-                "what is opaque is the silhouette; in a picture without transparency, what is dark",
+                "opaque parts are the silhouette; in a picture without transparency, dark parts are",
             )
         })
     }

@@ -58,12 +58,12 @@ fn size(shape: &SvgShape) -> Result<Size, Wrong> {
             return Err((format!("must be above zero, got {length} m"), "for example: height: 0.2".to_owned(), field));
         }
     }
-    let help = "`height: 0.2` is how high the drawing becomes, `unit: \"1 mm\"` the length of one of its units";
+    let help = "`height: 0.2` is the height of the drawing in metres, `unit: \"1 mm\"` the length of one of its units";
     match (shape.height, shape.unit) {
         (Some(height), None) => Ok(Size::Height(height.si())),
         (None, Some(unit)) => Ok(Size::Unit(unit.si())),
         (Some(_), Some(_)) => Err(("`height` and `unit` cannot both be given".to_owned(), help.to_owned(), "unit")),
-        (None, None) => Err(("how large the drawing becomes is missing".to_owned(), help.to_owned(), "file")),
+        (None, None) => Err(("the field `height` or `unit` is missing".to_owned(), help.to_owned(), "file")),
     }
 }
 

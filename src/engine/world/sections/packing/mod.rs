@@ -98,7 +98,7 @@ impl Section for PackingsSection {
                 };
                 if let Some(number) = (0..table.body_count()).find(|&number| !finite(number)) {
                     let name = entry.body_name(number as u64);
-                    let message = format!("{name}: its mass, place or velocity is too large to be a number");
+                    let message = format!("{name}: its mass, place or velocity is infinite");
                     report.error("file", message).help("the table is in metres and m/s: look for a zero too many");
                 }
             });

@@ -278,14 +278,17 @@ fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Resul
         values[column] = match cell.parse::<f64>() {
             Ok(value) if value.is_finite() => value,
             Ok(_) => {
-                return Err(wrong(format!("must be a finite number, got `{cell}`"), "look for what made the table"));
+                return Err(wrong(
+                    format!("must be a finite number, got `{cell}`"),
+                    "look for the cause in the program that made the table",
+                ));
             }
             Err(_) if cell.is_empty() => {
                 return Err(wrong("is empty".to_owned(), "each row has a value for each column"));
             }
             Err(_) => {
                 let help = "numbers are in SI units and without them, with a decimal point, such as `0.02`";
-                return Err(wrong(format!("is no number: `{cell}`"), help));
+                return Err(wrong(format!("is not a number: `{cell}`"), help));
             }
         };
     }
@@ -370,7 +373,7 @@ mod tests {
             ("x,y,radius,mass\n", 1, Some("mass"), "is no column"),
             ("x,y,radius,x\n", 1, Some("x"), "stands there twice"),
             ("x,y,radius\n", 1, None, "is followed by no row"),
-            ("x,y,radius\n\n1,2,a\n", 3, Some("radius"), "is no number: `a`"),
+            ("x,y,radius\n\n1,2,a\n", 3, Some("radius"), "is not a number: `a`"),
             ("x,y,radius\n1,inf,1\n", 2, Some("y"), "must be a finite number"),
             ("x,y,radius\n1,2,0\n", 2, Some("radius"), "must be above zero"),
             ("x,y,radius\n1,2\n", 2, None, "has 2 values, not 3"),
@@ -378,7 +381,7 @@ mod tests {
             ("x,y,radius\n1,2,\n", 2, Some("radius"), "is empty"),
             ("x,,y,radius\n1,2,3,4\n", 1, None, "has no name for column 2"),
             ("\"x,y,radius\n1,2,3\n", 1, None, "has a quote that is not closed"),
-            ("x;y;radius\n0,5;1;2\n", 2, Some("x"), "is no number: `0,5`"),
+            ("x;y;radius\n0,5;1;2\n", 2, Some("x"), "is not a number: `0,5`"),
             ("x,y,radius,vx\n1,2,3,4\n", 1, Some("vy"), "is missing, although there is `vx`"),
             ("vy,x,y,radius\n1,2,3,4\n", 1, Some("vx"), "is missing, although there is `vy`"),
             ("x,y,radius\n1,2,3,4\n", 2, None, "has 4 values, not 3"),
