@@ -18,7 +18,7 @@ pub use events::{ContactEvents, ContactEventsAppExt};
 pub use law::{Law, LawSide, LawTouch, add_law};
 
 const MEANING: &str = "\
-How things push each other that touch. Without this section `Penalty` with its defaults, if there is something to touch; with \
+The law by which touching things push each other. Without this section `Penalty` with its defaults, if there is something to touch; with \
 `contacts: None` everything passes through everything.";
 
 /// Registers the contact laws of this folder.

@@ -20,6 +20,6 @@ pub fn plugin(app: &mut App) {
         Arity::List,
         "controllers: [Servo(of: \"hip\", target: \"40 deg\", kp: 20, kd: 5)]",
     );
-    app.describe_section("controllers", "What drives joints.");
+    app.describe_section("controllers", "Motors and controllers that drive joints.");
     app.add_plugins(motor::plugin).add_plugins(servo::plugin).add_plugins(actuator::plugin);
 }

@@ -202,9 +202,9 @@ pub fn plugin(app: &mut App) {
     );
     app.describe_section(
         "expect",
-        "What has to be true of the run: the scene is its own test. Checked by `run`, `render` and `check --run`; an \
+        "Claims about the run: the scene is its own test. Checked by `run`, `render` and `check --run`; an \
          expectation that is broken is told, and the exit code is 1. Under a `tolerance` or `method: Reference` ticks are the \
-         frames of the film: what has to hold at every tick is looked at there and not between, and the card says how far \
+         frames of the film: claims for every tick are looked at there and not between, and the card says how far \
          apart they are.",
     );
     at_rest::plugin(app);

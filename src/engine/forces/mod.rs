@@ -27,7 +27,7 @@ use crate::scene::{Arity, SceneAppExt};
 /// Registers the forces of this folder. The order here is the order of the sums.
 pub fn plugin(app: &mut App) {
     app.register_entry_section("forces", Arity::List, "forces: [Drag(linear: 0.1)]");
-    app.describe_section("forces", "What acts on bodies beside gravity and contacts.");
+    app.describe_section("forces", "Forces on bodies beside gravity and contacts.");
     app.add_plugins(gravity::plugin)
         .add_plugins(attraction::plugin)
         .add_plugins(thrust::plugin)

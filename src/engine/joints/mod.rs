@@ -82,7 +82,7 @@ fn keep_apart(app: &mut App, a: u64, b: u64) {
 /// Registers the joints of this folder. The order here is the order of the rows.
 pub fn plugin(app: &mut App) {
     app.register_entry_section("joints", Arity::List, "joints: [Revolute(a: World, b: \"bar\", anchor_b: (-0.5, 0))]");
-    app.describe_section("joints", "What holds bodies to each other exactly, without stretching.");
+    app.describe_section("joints", "Constraints that hold bodies to each other exactly, without stretching.");
     app.add_plugins(revolute::plugin)
         .add_plugins(prismatic::plugin)
         .add_plugins(weld::plugin)

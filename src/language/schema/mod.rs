@@ -68,7 +68,7 @@ struct Head {
     format: u64,
     /// The name of the scene, in the film's corner and on the card. Default: nothing is shown.
     title: Option<String>,
-    /// What to look for, in a sentence or two. Default: none.
+    /// The thing to look for, in a sentence or two. Default: none.
     notes: Option<String>,
 }
 

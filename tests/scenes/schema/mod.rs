@@ -180,7 +180,7 @@ fn one_entry_is_told_in_plain_words() {
     assert!(told.contains("\n  duration: time in s; needed. Length of the run, "), "{told}");
     let told = language.told("bodies", None).unwrap();
     assert!(told.contains("needed. "), "{told}");
-    assert_eq!(language.told("forces", None).unwrap(), "What acts on bodies beside gravity and contacts.");
+    assert_eq!(language.told("forces", None).unwrap(), "Forces on bodies beside gravity and contacts.");
     assert_eq!(language.told("forces", Some("Magnet")), None);
     assert_eq!(language.told("clock", Some("Drag")), None);
 }

@@ -185,7 +185,7 @@ pub fn plugin(app: &mut App) {
     app.register_entry_section(LAYERS, Arity::Words, "layers: [Trails(seconds: 1), ContactForces, ScaleBar, Time]");
     app.describe_section(
         LAYERS,
-        "What is drawn beside bodies, walls and title. `--layers` chooses others for one film.",
+        "Layers that are drawn beside bodies, walls and title. `--layers` chooses others for one film.",
     );
     trails::plugin(app);
     boxes::plugin(app);
