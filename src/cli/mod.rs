@@ -95,8 +95,7 @@ fn after_help() -> String {
 
 pub use author::{main_with, tell_commit};
 
-/// 2D physics without a window: a scene in a RON file goes in; films, numbers and a statement of how wrong they are
-/// come out.
+/// 2D physics without a window: a scene in a RON file becomes films, numbers and a statement of their errors.
 #[derive(Parser, Debug)]
 #[command(name = "jostle", version, after_help = after_help())]
 pub struct CommandLine {

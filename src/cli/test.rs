@@ -51,9 +51,14 @@ Examples:
   jostle test scenes/ --junit report.xml       for a build server
   jostle test scenes/ --tick 0.1ms             do they hold with a finer tick?
 
-A line for each scene: good, untested (it ran, but expects nothing), broken (an expectation does not hold), refused (the \
-scene is wrong), failed (the run went wrong, or with --strict is not to be trusted), skipped (a file in a folder that is no scene, or a part for others to \
-include: without mistakes of syntax and without a `clock`).
+The output has a line for each scene:
+  good       all expectations hold
+  untested   it ran, but expects nothing
+  broken     an expectation does not hold
+  refused    the scene is wrong
+  failed     the run went wrong, or with --strict the verdict does not trust it
+  skipped    a file in a folder that is no scene, or a part for others to include: it has no
+             mistakes of syntax and no `clock`
 
 Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
 
