@@ -1,4 +1,4 @@
-//! What was wrong before the first tick: the scene itself.
+//! Causes in the scene itself: bodies that overlap at the start, and drag that is too strong for the tick.
 
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Part, Trust};
@@ -7,12 +7,12 @@ use jostle_engine::contacts::search::OverlapAtStart;
 use jostle_engine::tick::State;
 use jostle_language::numbers::{number, percent};
 
-/// Share of the energy that went round which springs may hold at the start without a word: what lies on the ground holds some.
+/// At the start springs may hold this share of the energy that changed form. Bodies that lie on the ground compress theirs.
 const COMPRESSED: f64 = 0.1;
-/// Drag that took less of it has not turned anything round.
+/// Drag that took a smaller share of that energy has not reversed any velocity.
 const TAKEN: f64 = 0.3;
 
-/// Bodies stand in each other at the start: springs that nobody compressed drive them apart.
+/// Bodies overlap at the start, and springs that no motion has compressed drive them apart.
 pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = world.get_resource::<OverlapAtStart>()?;
@@ -30,14 +30,15 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     (share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(Part::Model), what, remedy })
 }
 
-/// Drag or a damper that takes more than there is: a method of whole steps then turns a velocity round and makes it larger.
+/// Drag or a damper takes more than the whole velocity in a step. An explicit method then reverses the velocity and makes it
+/// larger.
 pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let drag = card.energy.drag + card.energy.accounts.values().sum::<f64>();
     let taken = drag / card.energy_scale;
     let mad = drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
     let what = "drag takes more than the whole velocity of a body in a tick, and turns it round".to_owned();
-    // How far anything travelled came of that: it says nothing of the tick that would do.
+    // The reversed velocities set how far bodies travelled, so the travel does not tell which tick would do.
     let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));
     mad.then(|| Cause { trust: Trust::Not, what, remedy: Some(finer.or_finer()) })
 }

@@ -1,13 +1,13 @@
-//! Energy that is missing, or came out of nowhere.
+//! Energy that the ledger misses, or that came out of nowhere.
 
 use super::{Cause, Evidence, Part, Trust, near, ticks};
 use crate::Remedy;
 use jostle_language::numbers::{number, percent};
 
-/// Share of the energy that went round which may be missing.
+/// The ledger may miss this share of the energy that changed form.
 pub(crate) const UNACCOUNTED: f64 = 0.05;
 
-/// Numbers that are none.
+/// Energy or momentum is NaN or infinite.
 pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let finite =
@@ -16,11 +16,11 @@ pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
     (!finite).then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
 }
 
-/// More energy is missing than a good tick leaves. What else is known of the ticks is said with it.
+/// More energy is missing than a good tick leaves. The message adds the most likely reason.
 pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let error = card.energy_error();
-    // Numbers so great that their share is none are told of as that.
+    // If energies are so large that their ratio is NaN, `numbers_that_are_none` reports them.
     if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }
@@ -38,15 +38,15 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
 }
 
-/// Share of the energy that went round which may be missing without a word.
+/// The verdict does not mention a smaller share of missing energy.
 pub(super) const MISSING: f64 = 1e-3;
 
-/// Share of the energy that went round which friction and contacts may give in a run that is good for a first look.
+/// Friction and contacts may give this share of the energy in a run that is good for a first look.
 const GIVEN: f64 = 1e-2;
-/// The same in a run of which nothing is said.
+/// The verdict does not mention a smaller share that they give.
 const ROUNDED: f64 = 1e-3;
 
-/// Friction and contacts have given energy: they held bodies by less than their springs, while these were pressed together further.
+/// Friction and contacts have given energy. They held bodies by less than their springs, while loads compressed these further.
 pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let given = card.given_back;
@@ -59,11 +59,11 @@ pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     (share > ROUNDED).then(|| Cause { trust, what, remedy: evidence.finer() })
 }
 
-/// What may have happened where nothing is known.
+/// Possible causes of a failure that no function of this folder explains.
 pub(super) fn of_unknown_cause(evidence: &Evidence) -> String {
     let card = evidence.card;
     let remedy = match card.remedy() {
-        // Whatever is said of contacts came of that.
+        // The failure itself made the contacts from which the card derives its tick, so that tick is not advised.
         Some(Remedy::Tick(_)) => format!(", or try `{}`", Remedy::Tick(card.tick / 4.0)),
         Some(remedy) => format!(", or try `{remedy}`"),
         None => String::new(),

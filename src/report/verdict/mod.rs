@@ -1,9 +1,8 @@
-//! The verdict: one plain line that says what of a run can be trusted, then what cannot, where and when that began, and then what
-//! would help.
+//! The verdict: one plain line on how far a run can be trusted. It names the parts to trust, and the parts to doubt with the
+//! place and time at which doubt begins. Then it names a remedy.
 //!
-//! Each cause is a function that looks at the evidence: the card and the world. One that leaves nothing to be trusted speaks
-//! alone. Causes stand in the order in which one explains the others: a tick above the critical one makes everything else go
-//! wrong too.
+//! Each cause is a function that looks at the evidence: the card and the world. A cause that leaves nothing to trust is told
+//! alone. Causes stand in such an order that the first explains later ones. A tick above the critical one spoils all else too.
 
 mod ahead;
 mod asked;
@@ -25,7 +24,7 @@ use jostle_engine::tick::{Failure, State, Wrong};
 use jostle_language::numbers::{number, percent, rough};
 use part::Part;
 
-/// What a verdict is found from.
+/// The evidence from which a verdict follows.
 pub(super) struct Evidence<'a> {
     pub world: &'a World,
     pub card: &'a Card,
@@ -34,26 +33,26 @@ pub(super) struct Evidence<'a> {
 /// How far a run can be trusted.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) enum Trust {
-    /// Not at all: what was computed is not the scene.
+    /// Not at all: the run is not the motion of the scene.
     Not,
-    /// But for a part.
+    /// Except for a part.
     ButNot(Part),
 }
 
-/// What most likely spoils a run.
+/// A likely reason for which a run is wrong.
 #[derive(Clone, Debug, PartialEq)]
 pub(super) struct Cause {
     pub trust: Trust,
-    /// What it is, with bodies and times.
+    /// A description, with bodies and times.
     pub what: String,
-    /// What would mend it.
+    /// The change that would mend it.
     pub remedy: Option<String>,
 }
 
-/// More bodies are not run with a tolerance in a time that anybody waits.
+/// A run of more bodies with a tolerance takes longer than its user would wait.
 const FEW: usize = 30;
 
-/// What may be to blame, in the order in which one explains the others.
+/// All causes, in such an order that the first explains later ones.
 const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ticks::unstable,
     asked::otherwise,
@@ -81,24 +80,24 @@ impl Evidence<'_> {
         self.card.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
     }
 
-    /// The same as a remedy.
+    /// The remedy that the card advises, or a finer one.
     pub fn finer(&self) -> Option<String> {
         self.card.remedy().map(|remedy| remedy.or_finer())
     }
 
-    /// A tolerance to be advised beside a tick, where few bodies go by ticks.
+    /// Advises a tolerance beside a tick, if the run goes by ticks and has few bodies.
     pub fn or_tolerance(&self) -> &'static str {
         let few = self.world.resource::<State>().bodies().len() <= FEW;
         if few && self.card.by_ticks() { ", or `--tolerance 0.001`" } else { "" }
     }
 
-    /// The energy that is missing, as a warning.
+    /// A warning of missing energy.
     pub fn missing_energy(&self) -> Option<String> {
         let Cause { what, remedy, .. } = energy::unaccounted(self)?;
         Some(remedy.map_or_else(|| what.clone(), |remedy| format!("{what}; use {remedy}")))
     }
 
-    /// The likely cause of a run that went wrong, and what to try.
+    /// The likely cause of a failed run, and a remedy to try.
     pub fn why(&self, failure: &Failure) -> String {
         if matches!(failure.wrong, Wrong::Steps(_)) {
             return near::of_endless_steps(self);
@@ -137,17 +136,17 @@ impl Evidence<'_> {
         remedy.map_or_else(|| what.clone(), |remedy| format!("{what}: try {remedy}"))
     }
 
-    /// Until when the run was made again with finer steps, in s, if not to its end: nothing is known of how wrong the rest is.
+    /// The time in s until which the run was repeated with finer steps, if not to its end. The error of the rest is not known.
     fn known_until(&self) -> Option<f64> {
         self.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.known_until)
     }
 
-    /// What a body or wall is called.
+    /// The name of a body or wall.
     pub fn name(&self, entity: Entity) -> String {
         name(self.world, entity)
     }
 
-    /// The verdict of a run that came to its end.
+    /// The verdict of a run that reached its end.
     pub fn verdict(&self) -> String {
         let causes = CAUSES.iter().filter_map(|cause| cause(self)).collect();
         match voice::doubts(causes) {
@@ -160,7 +159,7 @@ impl Evidence<'_> {
     }
 }
 
-/// How a verdict begins that leaves nothing to be trusted.
+/// The beginning of a verdict that leaves nothing to trust.
 pub(super) const DISTRUST: &str = "Do not trust it";
 
 /// A share of how far bodies go.

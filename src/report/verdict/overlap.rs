@@ -1,4 +1,4 @@
-//! Contacts that give way more than bodies are large.
+//! Contacts whose overlap is a large part of a radius.
 
 use bevy_ecs::prelude::*;
 
@@ -6,20 +6,20 @@ use super::{Cause, Evidence, Part, Trust};
 use jostle_engine::tick::{State, index_of};
 use jostle_language::numbers::number;
 
-/// A body so many times as heavy as what it presses on asks for springs that are as many times as stiff.
+/// Above this ratio of masses a heavy body on a light one needs springs that are stiffer by the ratio.
 const HEAVY: f64 = 100.0;
 
-/// Critical ticks that a tick has to be shorter than, so that contacts are resolved.
+/// Contacts are resolved if the critical tick is at least this many ticks.
 const TICKS: f64 = 20.0;
 
-/// An overlap, as a share of a radius, from which on bodies visibly are not where their surfaces meet.
+/// An overlap, as a share of a radius, above which a viewer sees that bodies stand in each other.
 const DEEP: f64 = 0.5;
 
-/// Overlaps that hardly change what a scene means, as a share of a radius.
+/// An overlap, as a share of a radius, that hardly changes the meaning of a scene.
 const HARDLY: f64 = 0.1;
 
-/// Something was pressed in by much of a radius. Where that is an impact, overlaps fall with the root of the stiffness, `d = v
-/// sqrt(m/k)`, and so do critical ticks.
+/// A contact was pressed in by much of a radius. In an impact the overlap `d = v sqrt(m/k)` falls with the root of the stiffness
+/// `k`, and so does the critical tick.
 pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = &card.largest_overlap_share;
@@ -47,7 +47,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     };
     let radius = overlap.meters / overlap.share_of_radius;
     let softer = overlap.share_of_radius / HARDLY;
-    // What runs through another was not stopped by its spring: `m v^2 = k d^2` for the fastest that was seen.
+    // A body that runs through another was too fast for its spring. The fastest body sets the stiffness: `m v^2 = k d^2`.
     let speed = card.largest_travel_share * bodies.smallest_radius / card.tick;
     let stiffness = stiffness(world, deepest);
     let inverse_mass = |entity| index_of(world, entity).map_or(0.0, |slot| bodies.inverse_mass(slot));
@@ -55,7 +55,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let run_through = speed * speed / (inverse * stiffness * (HARDLY * radius) * (HARDLY * radius));
     let many = if run_through.is_finite() { run_through.max(softer * softer) } else { softer * softer };
     let times = number(rounded_up(many));
-    // Contacts have to take some ticks already.
+    // If the tick is too coarse for the present contacts, the advice makes up for that too.
     let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
@@ -65,14 +65,14 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::ButNot(Part::Model), what, remedy: Some(remedy) })
 }
 
-/// Stiffness in N/m of the softest atom of two sides; infinite where neither has one.
+/// Stiffness in N/m of the softest atom of two sides; infinite if neither side has an atom.
 fn stiffness(world: &World, (a, b): (Entity, Entity)) -> f64 {
     let bodies = world.resource::<State>().bodies();
     let atoms = [a, b].into_iter().filter_map(|entity| index_of(world, entity)).flat_map(|slot| bodies.atoms_of(slot));
     atoms.map(|atom| bodies.atom_stiffness(atom)).fold(f64::INFINITY, f64::min)
 }
 
-/// One digit, not less than it was.
+/// The least number of one digit that is not below the value.
 fn rounded_up(value: f64) -> f64 {
     let digit = libm::exp10(value.log10().floor());
     (value / digit).ceil() * digit

@@ -4,33 +4,33 @@ use std::fmt;
 
 use super::at;
 
-/// A part of what a run tells.
+/// A part of the results of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(crate) enum Part {
-    /// The numbers are those of the scene, but the scene is not what it is meant to be, as its springs give way so far.
+    /// The numbers belong to the scene, but its springs give way too far for the model to mean hard bodies.
     Model,
-    /// What is gained and lost, and what lies still.
+    /// Gains and losses of energy, and which bodies are at rest.
     Energy,
-    /// What happens within contacts.
+    /// Motion within contacts.
     Impacts,
     /// Whether each contact was seen at all.
     Meetings,
     /// Places.
     Places,
-    /// Places after a time in s, as finer runs go elsewhere.
+    /// Places after a time in s, from which on finer runs go elsewhere.
     PlacesAfter(f64),
-    /// Places after a time in s, of which nothing is known.
+    /// Places after a time in s whose error is not known.
     UnknownAfter(f64),
-    /// Places of which nothing is known.
+    /// Places whose error is not known.
     UnknownPlaces,
-    /// Places that finer runs give otherwise by a hundredth of the motion or more.
+    /// Places that differ from those of finer runs by a hundredth of the motion or more.
     FinePlaces,
     /// The digits that a tolerance asked for.
     LastDigits,
 }
 
 impl Part {
-    /// Until when places can be trusted, in s, if not to the end.
+    /// The time in s until which places can be trusted, if not to the end.
     pub fn places_until(&self) -> Option<f64> {
         match self {
             Self::PlacesAfter(time) | Self::UnknownAfter(time) => Some(*time),
@@ -38,12 +38,12 @@ impl Part {
         }
     }
 
-    /// Whether nothing speaks against it: it is only not known.
+    /// Whether the part is doubted only because its error is not known.
     pub fn is_unknown(&self) -> bool {
         matches!(self, Self::UnknownAfter(_) | Self::UnknownPlaces)
     }
 
-    /// Whether a doubt of this part makes a doubt of the other idle.
+    /// Whether a doubt of this part makes a doubt of the other one superfluous.
     pub fn covers(&self, other: &Self) -> bool {
         let of_places = |part: &Self| {
             matches!(part, Self::Places | Self::UnknownPlaces | Self::FinePlaces) || part.places_until().is_some()

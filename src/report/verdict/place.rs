@@ -1,13 +1,13 @@
-//! Digits: places far from the origin have few of them left.
+//! Rounding of places far from the origin: few digits are left for overlaps.
 
 use super::{Cause, Evidence, Trust};
 use jostle_engine::tick::State;
 use jostle_language::numbers::{number, percent, rough};
 
-/// A last digit of a place that is so large a share of what contacts do makes them rattle.
+/// Contacts rattle if the last digit of a place exceeds this share of their overlap.
 const COARSE: f64 = 1e-3;
 
-/// The last digit of a place is no longer small beside the overlaps that make forces, or beside the bodies themselves.
+/// The last digit of a place is not small beside the overlaps that make forces, or beside the bodies themselves.
 pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
     let (bodies, card) = (evidence.world.resource::<State>().bodies(), evidence.card);
     let (far, body) = (0..bodies.len())
@@ -30,8 +30,8 @@ pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
     (share > COARSE && share.is_finite()).then_some(Cause { trust: Trust::Not, what, remedy })
 }
 
-/// How far a body at least presses in what it touches, in m: by its weight, or without gravity by its speed. A contact that merely
-/// grazes it does not count.
+/// The least overlap in m that a body causes: by its weight, or without gravity by its speed. A contact that merely grazes the
+/// body has a smaller one, which is no measure of its forces.
 fn load(state: &State, body: usize) -> f64 {
     let (bodies, gravity) = (state.bodies(), state.gravity().length());
     let stiffness = bodies.atoms_of(body).map(|atom| bodies.atom_stiffness(atom)).fold(0.0, f64::max);

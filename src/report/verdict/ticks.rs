@@ -1,4 +1,4 @@
-//! Ticks that are too long for what they have to resolve.
+//! Ticks that are too long: for stable springs, a periodic force, a brief contact or the travel of a body.
 
 use std::f64::consts::TAU;
 
@@ -10,7 +10,7 @@ use crate::warnings::FEWEST_TICKS;
 use jostle_engine::tick::{Holder, State, far_travel};
 use jostle_language::numbers::number;
 
-/// The tick is above the critical one: springs gain energy at each.
+/// The tick is above the critical one: springs gain energy at each tick.
 pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let critical = card.critical_tick.filter(|critical| card.by_ticks() && *critical < card.tick)?;
@@ -19,7 +19,7 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     }
     let fastest = world.resource::<State>().time_scales().fastest;
     let holder = fastest.map_or(Holder::Contacts, |fastest| fastest.holder);
-    // Contacts that nothing came to did nothing.
+    // If no bodies have touched, contacts have spoilt nothing.
     if holder == Holder::Contacts && card.largest_overlap.meters == 0.0 && critical > 0.0 {
         return None;
     }
@@ -31,13 +31,13 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
 }
 
-/// Ticks of a period below which a swing is not followed: with two and less it is seen as a slower one, or not at all, and a run
-/// with half the tick may see the same.
+/// With fewer ticks to a period a run does not follow an oscillation. With two or fewer it sees a slower one or none (aliasing).
+/// A run with half the tick may see the same.
 const FEWEST_A_PERIOD: f64 = 5.0;
-/// Ticks of a period that follow it well.
+/// With this many ticks to a period a run follows an oscillation well.
 const GOOD_A_PERIOD: f64 = 80.0;
 
-/// A force swings by the clock faster than ticks of one length can see.
+/// A force oscillates in time faster than the ticks can sample.
 pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let rhythms = world.resource::<State>().models().filter_map(|model| model.rhythm());
@@ -50,7 +50,7 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     (card.by_ticks() && ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
 }
 
-/// Contacts come and go within few ticks.
+/// Contacts begin and end within few ticks.
 pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let ticks = card.shortest_contact.filter(|_| card.by_ticks())? / card.tick;

@@ -1,24 +1,24 @@
-//! Places that are not exact, as the estimated error tells: chaos, events that ticks do not see, or a tick too long for the
-//! motion itself. And places of which nothing is known.
+//! Inexact places, by the estimated error. Its causes are chaos, events that ticks do not see, and a tick that is too long for
+//! the motion. If there is no estimate, the error of places is not known.
 
 use super::{Cause, Evidence, Part, Trust, at, of_the_way};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// Share of how far bodies go by which places may be wrong without a cause.
+/// A smaller error of places, as a share of how far bodies go, is no cause for doubt.
 const INEXACT: f64 = 1e-2;
 
-/// The tolerance that was asked for is not reached.
+/// The run does not reach the tolerance that its user asked for.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     let missed = evidence.card.missed.clone().filter(|_| !evidence.card.stands)?;
-    // Where the runs that are compared say nothing, no digit is known.
+    // If the comparison of runs gives no error, no digit is known.
     let known = evidence.card.error.is_none_or(|error| error.position.discretisation.is_some());
     let part = if known { Part::LastDigits } else { Part::Places };
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
 }
 
-/// Where and when a finer run first went another way, in words.
+/// The body and the time at which a finer run first goes another way, in words.
 pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let (body, time) = estimated.began.as_ref()?;
@@ -28,11 +28,11 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
     ))
 }
 
-/// Any error grows until nothing is left of places.
+/// Chaos: any error grows until places have no correct digit.
 pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
-    // Where energy is lost or gained the tick makes bodies go elsewhere, chaos or not.
+    // If energy is missing, the tick makes bodies go elsewhere even without chaos.
     if evidence.card.energy_error() > INEXACT {
         return None;
     }
@@ -63,12 +63,12 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         (Some(began), _) => format!("{why}: {began}"),
         (None, _) => why,
     };
-    // Until then they are where a finer run has them, to a hundredth of the motion.
+    // Until this time places agree with a finer run to a hundredth of the motion.
     let until = error.horizon.map(|horizon| estimated.began.as_ref().map_or(horizon, |(_, time)| *time));
     let part = until.map_or(Part::FinePlaces, Part::PlacesAfter);
     let why = if error.horizon.is_some() { why } else { format!("{why}, by {}", of_the_way(share)) };
     let tolerance = evidence.or_tolerance();
-    // Beyond a horizon nothing says how errors fall.
+    // Beyond a horizon the order at which errors fall is not known.
     let order = if unseen { 1.0 } else { 2.0 };
     let tick = if error.horizon.is_some() { card.tick / 10.0 } else { card.tick_for(share, INEXACT / 10.0, order) };
     let whether = if error.horizon.is_some() { " to see whether that moves on" } else { "" };
@@ -79,7 +79,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     })
 }
 
-/// Only the beginning was run again with finer steps.
+/// Only the beginning of the run was repeated with finer steps.
 pub(super) fn not_run_again(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.known_until().filter(|_| !evidence.card.stands)?;
     let what = "their error is not known, as only the time before was run again with finer steps".to_owned();
@@ -90,7 +90,7 @@ pub(super) fn not_run_again(evidence: &Evidence) -> Option<Cause> {
     })
 }
 
-/// No estimate tells how wrong places are, or only until a time.
+/// No estimate gives the error of places, or it gives the error only until a time.
 pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     if card.stands {

@@ -1,5 +1,5 @@
-//! What a verdict says of a run that is the scene's: first what can be trusted, then what cannot, then what would help. What is
-//! doubted is never among what is trusted.
+//! The wording of a verdict that trusts at least a part of a run. Trusted parts come first, then doubted parts, then the remedy.
+//! A doubted part is never among the trusted ones.
 
 use super::{Cause, Evidence, Part, Trust, at, energy, of_the_way, places};
 use crate::estimate::EstimatedError;
@@ -9,7 +9,7 @@ use jostle_language::numbers::{percent, rough};
 /// More doubts than a reader keeps in mind.
 const MOST: usize = 3;
 
-/// The verdict with these doubts, the gravest first; without any it is praise.
+/// The verdict with these doubts, the gravest first. Without doubts it is praise.
 pub(super) fn told(evidence: &Evidence, doubts: &[(Part, Cause)]) -> String {
     if doubts.is_empty() {
         return praise(evidence);
@@ -23,7 +23,7 @@ pub(super) fn told(evidence: &Evidence, doubts: &[(Part, Cause)]) -> String {
     let doubted: Vec<String> =
         doubts.iter().take(MOST).map(|(part, cause)| format!("{part}: {}", cause.what)).collect();
     let mut help: Vec<&str> = doubts.iter().filter_map(|(_, cause)| cause.remedy.as_deref()).collect();
-    // One step at a time: what the gravest asks for, and a better estimate.
+    // One step at a time: the remedy of the gravest doubt, and a better estimate.
     help.truncate(1);
     let unknown = doubts.iter().filter(|(part, _)| part.is_unknown()).filter_map(|(_, cause)| cause.remedy.as_deref());
     let first = help.first().copied();
@@ -58,7 +58,7 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
     if stands(state) || doubted(&Part::Places) || doubted(&Part::UnknownPlaces) {
         return trusted;
     }
-    // The error on the card is that of all that was compared.
+    // The error on the card holds for all of the run that was compared.
     let compared = doubts.iter().any(|(part, _)| part.is_unknown()) || !card.by_ticks();
     let known = card.error.and_then(|error| error.position.sum()).filter(|_| compared);
     match until {
@@ -72,7 +72,7 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
     trusted
 }
 
-/// What is said where nothing is wrong.
+/// The verdict of a run without doubts.
 fn praise(evidence: &Evidence) -> String {
     let (card, energy) = (evidence.card, energy::accounted(evidence));
     if card.stands {
@@ -99,13 +99,13 @@ fn praise(evidence: &Evidence) -> String {
     format!("Trust it: {places}{share}, as runs with finer steps tell; {energy}{advice}.")
 }
 
-/// The doubts among causes; nothing, if one of them leaves nothing to be trusted.
+/// The doubts among causes, or as the error the first cause that leaves nothing to trust.
 pub(super) fn doubts(causes: Vec<Cause>) -> Result<Vec<(Part, Cause)>, Cause> {
     let mut doubts: Vec<(Part, Cause)> = Vec::new();
     for cause in causes {
         match cause.trust.clone() {
             Trust::Not => return Err(cause),
-            // The first that doubts a thing explains the others.
+            // The first doubt of a part explains later doubts of it.
             Trust::ButNot(part) if doubts.iter().any(|(other, _)| other.covers(&part)) => (),
             Trust::ButNot(part) => doubts.push((part, cause)),
         }
