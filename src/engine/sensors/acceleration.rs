@@ -1,5 +1,5 @@
-//! `Acceleration(of: "T")`: acceleration of the centre of mass in m/s2 and angular acceleration in rad/s2, `T.acceleration.x`,
-//! `T.acceleration.y`, `T.angular_acceleration`, by all forces of the present state.
+//! `Acceleration(of: "T")`: accelerations by all forces of the present state. `T.acceleration.x` and `T.acceleration.y` in m/s2
+//! are those of the centre of mass, `T.angular_acceleration` in rad/s2 is that of the angle.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,7 +1,7 @@
-//! `Clearance(name: "gap", a: "arm", b: "wall")`: the least distance of the surfaces of two bodies, or of a body and a wall; below zero
-//! where they overlap.
+//! `Clearance(name: "gap", a: "arm", b: "wall")`: the least distance between two bodies, or a body and a wall. It is below zero
+//! if they overlap.
 //!
-//! Surfaces are those of contacts: where two sharp shapes would meet, corners are as round as contacts make them.
+//! Distances are those of surfaces as contacts see them: if two sharp shapes meet, contacts make their corners round.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -18,10 +18,10 @@ use jostle_shapes::{Hull, Pose, distance};
 
 const QUANTITIES: &[&str] = &["clearance"];
 
-/// The least distance in m of the surfaces of two bodies, or of a body and a wall: `gap.clearance`. All pairs of their parts are looked at.
-/// Below zero where they overlap: then it is the depth of the deepest pair. It is below zero in a half-plane too, and in a block of ground that a
-/// line goes around clockwise; behind another line, or a strip with one side, it is the distance again. Corners of sharp shapes are as round as where contacts meet them. Of a body
-/// with parts that touch, only those count.
+/// The least distance in m of the surfaces of two bodies, or of a body and a wall: `gap.clearance`. It is the least over all
+/// pairs of their parts. If they overlap, it is below zero: the depth of the deepest pair. It is below zero in a half-plane too,
+/// and in a block of ground that a line goes around clockwise. Behind another line, or a strip with one side, it is the distance
+/// again. Corners of sharp shapes are as round as contacts make them. If a body has parts that touch, only those count.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Clearance {
@@ -33,7 +33,7 @@ struct Clearance {
     b: String,
 }
 
-/// What the scene asks for: names, and what they stand for.
+/// The sensors of the scene: each with its name, a body, and the other body or wall.
 #[derive(Resource, Default)]
 struct Asked(Vec<(String, Entity, Entity)>);
 

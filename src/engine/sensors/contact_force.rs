@@ -13,8 +13,8 @@ use crate::tick::{State, index_of};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
 
-/// The sum of the contact forces on a wall or body: `floor.force.x`, `floor.force.y` in N. Contacts of bodies that are asleep
-/// come first in the sum, so its last digits may change when bodies fall asleep or wake, although no force does.
+/// The sum of the contact forces on a wall or body: `floor.force.x`, `floor.force.y` in newtons. Contacts of bodies that are
+/// asleep come first in the sum. So its last digits may change when bodies fall asleep or wake, although no force does.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForce {

@@ -1,5 +1,5 @@
-//! `Contacts(of: "ball")`: how many bodies and walls touch a body or wall, `ball.contacts`, and how often one began to
-//! since the start, `ball.contacts.begun`. A pair touches as long as any of its atoms do.
+//! `Contacts(of: "ball")`: how many bodies and walls touch a body or wall, `ball.contacts`. `ball.contacts.begun` counts the
+//! beginnings of such touches since the start. A pair touches as long as any of its atoms do.
 
 use std::collections::BTreeSet;
 
@@ -18,9 +18,9 @@ use crate::tick::kept::SnapshotAppExt;
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
-/// How many bodies and walls touch a body or wall now, `ball.contacts`, and how often one began to since the start,
-/// `ball.contacts.begun`. A body that settles parts and touches again many times. Where events are located each of them counts,
-/// however short; else those that are seen at the end of a tick.
+/// How many bodies and walls touch a body or wall, `ball.contacts`. `ball.contacts.begun` counts the beginnings of such touches
+/// since the start. A body that settles parts and touches again many times. If the run locates events, each touch counts, however
+/// short. Otherwise those count that exist at the end of a tick.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
@@ -28,11 +28,11 @@ struct Contacts {
     of: Names,
 }
 
-/// How often something began to touch, for each body or wall that is asked for.
+/// The number of touches that have begun, for each body or wall of the sensors.
 #[derive(Resource, Default, Serialize, Deserialize)]
 struct Begun(Vec<(Entity, u64)>);
 
-/// Names of bodies, `*` matches, and of walls, which are named in full: each once, in the order of the file.
+/// The names of bodies, for which `*` matches, and of walls, which are named in full. Each stands once, in the order of the file.
 pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Diagnostics) -> Vec<String> {
     let mut owners: Vec<String> = Vec::new();
     for (pattern, path) in names.with_paths(field) {

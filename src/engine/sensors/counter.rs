@@ -21,9 +21,9 @@ use crate::tick::{add_looker, add_packed_observer};
 
 const QUANTITIES: &[&str] = &["count", "count.net"];
 
-/// How often bodies began to touch others since the start, or passed a gate: `hits.count`. Of a gate `grains.count.net` is how often they passed it
-/// to the left, less how often to the right. Contacts are counted as `Contacts` does; passages are seen from tick to tick. How often a channel
-/// crosses a value is counted by `Period`.
+/// How often bodies began to touch others since the start, or passed a gate: `hits.count`. Of a gate `grains.count.net` is how
+/// often they passed it to the left, less how often to the right. Contacts count as in `Contacts`; passages are seen from tick to
+/// tick. `Period` counts how often a channel crosses a value.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Counter {
@@ -31,13 +31,14 @@ struct Counter {
     name: String,
     /// The bodies, `*` matches.
     of: Names,
-    /// What they touch: bodies, `*` matches, and walls, which are named in full. Either this or `gate`. Default: `gate` says what is counted.
+    /// The touched bodies, `*` matches, and walls, which are named in full. Either this or `gate`. Default: `gate` says what is
+    /// counted.
     touching: Option<Names>,
     /// The two ends of a gate, in m. Either this or `touching`. Default: `touching` says what is counted.
     gate: Option<(Position, Position)>,
 }
 
-/// What a counter looks at.
+/// The events that a counter counts.
 enum Looked {
     /// Contacts of bodies with others, both lists sorted.
     Contacts(Vec<Entity>, Vec<Entity>),
@@ -49,7 +50,7 @@ enum Looked {
 #[derive(Resource, Default)]
 struct Counted(Vec<(String, Looked)>);
 
-/// What the counters of a run have seen.
+/// The counts of a run, one for each counter.
 #[derive(Resource, Default, Serialize, Deserialize)]
 struct Counts(Vec<Count>);
 
@@ -123,7 +124,7 @@ fn sorted(mut entities: Vec<Entity>) -> Vec<Entity> {
     entities
 }
 
-/// Sees to it that ticks are looked at, once for each kind of counter.
+/// Adds the observer of ticks, once for each kind of counter.
 fn look(world: &mut World, looked: &Looked) {
     let is_alike = |(_, other): &(String, Looked)| std::mem::discriminant(other) == std::mem::discriminant(looked);
     if world.get_resource_or_init::<Counted>().0.iter().any(is_alike) {

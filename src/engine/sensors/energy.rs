@@ -23,9 +23,9 @@ const CHANNELS: &[&str] = &[
     "energy.residual",
 ];
 
-/// The energy ledger in J: `energy.kinetic`, `energy.potential`, `energy.elastic` and their sum `energy.total`; what was
-/// lost, `energy.friction`, `energy.inelasticity`, `energy.drag`, and where springs have dampers `energy.damping`; `energy.work` of drives; `energy.residual`, what cannot be
-/// accounted for.
+/// The energy ledger in J: `energy.kinetic`, `energy.potential`, `energy.elastic` and their sum `energy.total`. Its losses are
+/// `energy.friction`, `energy.inelasticity`, `energy.drag`, and `energy.damping` if springs have dampers. `energy.work` is the
+/// work of drives. `energy.residual` is the rest that the ledger cannot account for.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Energy {}

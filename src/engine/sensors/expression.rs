@@ -1,7 +1,7 @@
-//! `Expression(name: "gap", of: "a.position.x - b.position.x")`: a number that is worked out of other channels.
+//! `Expression(name: "gap", of: "a.position.x - b.position.x")`: a number that follows from other channels by a formula.
 //!
-//! It is written as expressions elsewhere in scenes, with channels in place of parameters, and knows their units: a length is never added
-//! to a mass.
+//! Its syntax is that of all expressions in scenes, with channels in place of parameters. It knows their units: a length is never
+//! added to a mass.
 
 use std::borrow::Cow;
 use std::collections::{BTreeMap, BTreeSet};
@@ -39,7 +39,7 @@ struct Expression {
 #[derive(Resource, Default)]
 struct Expressions {
     list: Vec<Asked>,
-    /// Indices of those that are being put together.
+    /// Indices of the expressions that are under construction, by which a cycle is found.
     open: Vec<usize>,
     /// The words for quantities, for messages.
     words: Vec<&'static str>,
@@ -48,7 +48,7 @@ struct Expressions {
 struct Asked {
     name: String,
     text: String,
-    /// Where it stands in the scene.
+    /// The path of the sensor in the scene.
     path: String,
 }
 
@@ -126,7 +126,7 @@ fn channel(world: &mut World, index: usize) -> Result<Channel, Mistake> {
     let (_, powers) = value(world, &parts)?;
     let own: Vec<&'static str> = parts.values().map(|channel| channel.unit).collect();
     let symbol = Formula::symbol(powers, &[&own[..], &SYMBOLS].concat());
-    // What depends on a value, such as a power of a length by a channel, may fail later.
+    // The unit of a length to the power of a channel depends on a value, so later evaluations may fail.
     let read = move |world: &World| value(world, &parts).map_or(f64::NAN, |(value, _)| value);
     Ok(Channel::of_resources(format!("{name}.{QUANTITY}"), kept(symbol), read))
 }
@@ -151,7 +151,7 @@ fn parts(world: &mut World, formula: &Formula) -> Result<BTreeMap<String, Channe
     Ok(parts)
 }
 
-/// A symbol for as long as the program runs: each is kept once.
+/// A symbol that lives as long as the program. Each symbol is kept once.
 fn kept(symbol: Cow<'static, str>) -> &'static str {
     static MADE: Mutex<BTreeSet<&'static str>> = Mutex::new(BTreeSet::new());
     let symbol = match symbol {

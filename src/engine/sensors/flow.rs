@@ -69,7 +69,7 @@ impl Direction {
     }
 }
 
-/// What the scene asks for.
+/// The sensors of the scene.
 #[derive(Resource, Default)]
 struct Asked(Vec<Meter>);
 
@@ -88,7 +88,7 @@ impl Meter {
     }
 }
 
-/// What the meters of a run have seen.
+/// The passages of a run, one account for each meter.
 #[derive(Resource, Default, Serialize, Deserialize)]
 struct Seen(Vec<Passed>);
 
@@ -97,7 +97,7 @@ struct Passed {
     all: Amount,
     /// Tick and amount of those in the window, the oldest first.
     recent: VecDeque<(u64, Amount)>,
-    /// Where each body was at the last tick, in m.
+    /// The place of each body at the last tick, in m.
     before: Vec<Option<DVec2>>,
 }
 
@@ -174,7 +174,7 @@ fn look(world: &mut World) {
 }
 
 impl Passed {
-    /// What has passed in the window per second; NaN before the first tick.
+    /// The amount per second that passed in the window; NaN before the first tick.
     fn rate(&self, meter: &Meter, clock: &Clock, of: impl Fn(&Amount) -> f64) -> f64 {
         let ticks = meter.ticks(clock).min(clock.ticks);
         let recent = self.recent.iter().map(|(_, amount)| amount).fold(Amount::default(), |sum, more| sum.plus(*more));

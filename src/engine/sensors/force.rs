@@ -11,7 +11,7 @@ use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::{ForcePart, State, index_of};
 
-/// What is told of the force on a body.
+/// The parts of the force on a body that a sensor can measure.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, JsonSchema)]
 enum Part {
     /// `m g` in the field of `gravity`: `b.weight.x`.
@@ -56,7 +56,7 @@ const QUANTITIES: &[&str] = &[
 struct Force {
     /// The bodies, `*` matches.
     of: Names,
-    /// The part that is told. Default: `Total`.
+    /// The part to be measured. Default: `Total`.
     #[serde(default)]
     part: Part,
 }

@@ -1,6 +1,6 @@
 //! A gate: the line between two places, and which bodies cross it from tick to tick.
 //!
-//! A body passes where its centre of mass crosses the line on the straight way from one tick to the next. Left is the left hand of a walk
+//! A body passes if its centre of mass crosses the line on the straight way from tick to tick. Left is the left hand of a walk
 //! from the first place to the second.
 
 use bevy_ecs::prelude::*;
@@ -17,7 +17,7 @@ pub(super) struct Gate {
     of: Vec<Entity>,
 }
 
-/// A body has passed a gate.
+/// The passage of a body through a gate.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Passage {
     /// The index of the body.

@@ -1,4 +1,4 @@
-//! Groups of bodies: those of some names that are in a region at a moment.
+//! Groups of bodies: those with given names whose centres of mass are in a region.
 
 use bevy_ecs::prelude::*;
 

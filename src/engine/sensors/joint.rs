@@ -1,6 +1,7 @@
-//! `Joint(of: "hip")`: what a joint leaves free and what it bears. `hip.angle` in rad (`hip.travel` in m for a slide), `hip.rate`,
-//! `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m on body B at its anchor, `hip.drift` in m. Of gears `mesh.torque` in N m, of a
-//! rack `mesh.force` in N.
+//! `Joint(of: "hip")`: the free coordinate of a joint, its reaction and its drift. The coordinate is `hip.angle` in rad
+//! (`hip.travel` in m for a slide), with its rate `hip.rate`. The reaction on body B at its anchor is `hip.force.x`,
+//! `hip.force.y` in newtons and `hip.torque` in N m. `hip.drift` is in m. Gears have `mesh.torque` in N m, a rack has
+//! `mesh.force` in N.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,5 +1,5 @@
-//! `Mean(name: "bed", of: "grain_*", quantity: "speed")`: arithmetic mean, standard deviation, least and greatest value of a quantity over
-//! a group of bodies.
+//! `Mean(name: "bed", of: "grain_*", quantity: "speed")`: mean, standard deviation, least and greatest value of a quantity over a
+//! group of bodies.
 //!
 //! The deviation is that of the group itself, `sqrt(sum (x - mean)^2/n)`, in two passes.
 
@@ -29,12 +29,12 @@ struct Mean {
     of: Names,
     /// The quantity of each body, such as `"speed"` or `"position.y"`.
     quantity: String,
-    /// Only bodies whose centre of mass is in this region count: two opposite corners of a box, or the corners of a polygon in order, in m.
-    /// Default: everywhere.
+    /// Only bodies whose centre of mass is in this region count. It is two opposite corners of a box, or the corners of a polygon
+    /// in order, in m. Default: everywhere.
     within: Option<Region>,
 }
 
-/// What the scene asks for.
+/// The sensors of the scene.
 #[derive(Resource, Default)]
 struct Asked(Vec<Averaged>);
 

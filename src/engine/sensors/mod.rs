@@ -111,7 +111,8 @@ fn see_components(world: &mut World, channel: &Channel) {
     }
 }
 
-/// A force of the last evaluation, or what follows from it: before the first tick there is none, and it is NaN.
+/// A value that follows from the forces of the last evaluation. Before the first tick there is no evaluation, and the value is
+/// NaN.
 fn known(state: &State, value: f64) -> f64 {
     if state.clock().ticks > 0 { value } else { f64::NAN }
 }
@@ -123,10 +124,10 @@ pub type Finder = fn(&mut World, owner: &str, quantity: &str) -> Option<Channel>
 #[derive(Resource, Default)]
 struct Finders(Vec<Finder>);
 
-/// The open list of what can be measured of a body or wall, such as `position.x`.
+/// The open list of quantities that a sensor can measure on a body or wall, such as `position.x`.
 pub const QUANTITIES: &str = "quantity";
 
-/// How plugins add something that can be measured.
+/// The interface by which plugins add channels.
 pub trait SensorAppExt {
     /// Adds how the channels `<body or wall>.<quantity>` are found.
     fn add_quantities(&mut self, quantities: &[&'static str], finder: Finder) -> &mut Self;
@@ -173,8 +174,8 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Dia
     }
 }
 
-/// Reports a choice of channels that cannot be right: a channel's name, in which `*` stands for any letters of the names
-/// of bodies.
+/// Reports a choice of channels that cannot be right. A choice is a channel's name, in which `*` stands for any letters of the
+/// names of bodies.
 pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     match pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) {
         Some((owner, quantity)) => {
@@ -186,7 +187,7 @@ pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut
     }
 }
 
-/// Reports what cannot be measured of a body or wall. Returns whether it can.
+/// Reports a quantity that no sensor can measure on a body or wall. Returns whether one can.
 pub fn check_quantity(quantity: &str, path: &str, outline: &Outline, report: &mut Diagnostics) -> bool {
     Word(quantity.to_owned()).check(outline, QUANTITIES, path, report)
 }
@@ -200,8 +201,8 @@ pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
     bodies.map(|body| format!("{body}.{quantity}")).collect()
 }
 
-/// The names of all channels that a pattern means, in which `*` stands for any letters also of the quantity, in canonical
-/// order of bodies and walls. Bodies and walls must have been spawned.
+/// The names of all channels that a pattern means, in canonical order of bodies and walls. In the pattern `*` stands for any
+/// letters, also of the quantity. Bodies and walls must have been spawned.
 pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<String> {
     let Some((owner, _)) = pattern.split_once('.').filter(|(_, quantity)| quantity.contains('*')) else {
         return chosen(pattern, outline);
@@ -225,7 +226,8 @@ pub fn find(world: &mut World, name: &str) -> Option<Channel> {
     Some(channel)
 }
 
-/// The same; a channel that is not there is a mistake of the scene at `path`, told with those that its owner has.
+/// The same, with a message if the channel does not exist. It is a mistake of the scene at `path`, and names the channels that
+/// the owner has.
 pub fn require(world: &mut World, outline: &Outline, name: &str, path: String) -> Option<Channel> {
     let found = find(world, name);
     if found.is_none() {
@@ -237,7 +239,7 @@ pub fn require(world: &mut World, outline: &Outline, name: &str, path: String) -
     found
 }
 
-/// What to say of a channel that is not there, and those that its owner has among the `words` for quantities.
+/// The message about a channel that does not exist. Its help names those of the `words` for quantities that the owner has.
 fn missing(world: &mut World, words: &[&str], name: &str) -> (String, String) {
     let (owner, quantity) = name.split_once('.').unwrap_or((name, ""));
     let has = |word: &&&str| find(world, &format!("{owner}.{word}")).is_some();
@@ -255,7 +257,8 @@ fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
     world.resource_mut::<Channels>().0.extend(found);
 }
 
-/// The channels of these names, each as [`find`] finds it, in a time that grows with their number and that of bodies.
+/// The channels of these names, each as [`find`] finds it. The time grows with the sum, not the product, of the numbers of names
+/// and bodies.
 pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
     with_index(world, |world| names.iter().map(|name| find(world, name)).collect())
 }
@@ -311,7 +314,7 @@ fn search<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
     query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity)
 }
 
-/// A channel of a body: read by its place in the packed state; not a number once the body is gone.
+/// A channel of a body, read by the body's index in the packed state. It is NaN once the body is gone.
 fn of_body(
     world: &mut World,
     name: &str,

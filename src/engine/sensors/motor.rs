@@ -1,5 +1,5 @@
-//! `Motor(of: "drive")`: what a motor or controller gives, `drive.torque` in N m (of a slide a force in N), and its power `drive.power`
-//! in W.
+//! `Motor(of: "drive")`: the output of a motor or controller. `drive.torque` is in N m (on a slide a force in N), its power
+//! `drive.power` in W.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

@@ -1,5 +1,5 @@
-//! `Overlap()`: the deepest overlap so far, `overlap.deepest` in metres and `overlap.share` of the smaller radius, each
-//! of the pair that has most of it.
+//! `Overlap()`: the deepest overlap so far. `overlap.deepest` is in metres, and `overlap.share` is a share of the smaller radius.
+//! Each is the greatest over all pairs.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -13,8 +13,8 @@ use crate::tick::State;
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
 
-/// The deepest overlap so far: `overlap.deepest` in m, `overlap.share` of the smaller radius. Each is that of its own pair: a small body may
-/// be pressed in by more of its radius, a large one by more metres.
+/// The deepest overlap so far: `overlap.deepest` in m, `overlap.share` of the smaller radius. Each has its own pair. A small body
+/// may overlap by a larger share of its radius, and a large one by more metres.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Overlap {}

@@ -1,7 +1,8 @@
 //! `Period(name: "swing", of: "hip.angle", crossing: 0)`: how often a channel crosses a value upwards, and how long that takes.
 //!
-//! A channel is known at ticks. A crossing is where the cubic polynomial through the four ticks about it has its root: for an oscillation of
-//! angular frequency `w` it is off by some `(w dt)^3 dt/40` (remainder of interpolation). It is told one tick later.
+//! A channel is known at ticks. A crossing is the root of the cubic polynomial through the four ticks about it. For an
+//! oscillation of angular frequency `w` the root is off by some `(w dt)^3 dt/40` (remainder of interpolation). The sensor knows a
+//! crossing one tick later.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -15,8 +16,9 @@ use crate::tick::{State, add_looker};
 
 const QUANTITIES: &[&str] = &["period", "period.mean", "crossings", "crossings.last"];
 
-/// How often a channel crosses a value upwards: `swing.crossings`, and when last, `swing.crossings.last` in s; how long the last period
-/// was, `swing.period` in s, and all of them on average, `swing.period.mean`. NaN before the first crossing, or the second.
+/// How often a channel crosses a value upwards: `swing.crossings`. `swing.crossings.last` is the time of the last crossing in s,
+/// and NaN before the first. `swing.period` is the duration of the last period in s, `swing.period.mean` the mean of all periods.
+/// Both are NaN before the second crossing.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Period {
@@ -29,7 +31,7 @@ struct Period {
     crossing: f64,
 }
 
-/// What the meters of a run have seen.
+/// The records of a run, one for each meter.
 #[derive(Resource, Default, Serialize, Deserialize)]
 struct Meters(Vec<Meter>);
 
@@ -37,7 +39,7 @@ struct Meters(Vec<Meter>);
 #[derive(Resource, Default)]
 struct Followed(Vec<(String, Channel, f64)>);
 
-/// What one meter has seen.
+/// The record of one meter.
 #[derive(Clone, Default, Serialize, Deserialize)]
 struct Meter {
     /// The last ticks, at most four: times in s, and values above the one to be crossed.
@@ -126,7 +128,7 @@ impl Meter {
         self.crossings += 1;
     }
 
-    /// Where the polynomial through all samples vanishes between a sample and the next.
+    /// The time at which the polynomial through all samples vanishes between a sample and the next, by bisection.
     fn root(&self, begin: usize) -> f64 {
         let (mut low, mut high) = (self.samples[begin].0, self.samples[begin + 1].0);
         loop {
@@ -183,8 +185,9 @@ pub(super) fn plugin(app: &mut App) {
 mod tests {
     use super::*;
 
-    /// Law: crossings of a sine of period 1 s are one period apart. Tolerance: the remainder of cubic interpolation between ticks of a
-    /// hundredth of a period, `(w dt)^4/(24 * 16/9)` of the amplitude in value, over the slope `w`: 6e-9 s, twice in each period.
+    /// Law: crossings of a sine of period 1 s are one period apart. Tolerance: the remainder of cubic interpolation between ticks
+    /// of a hundredth of a period, over the slope `w`. The remainder is `(w dt)^4/(24 * 16/9)` of the amplitude, so 6e-9 s, twice
+    /// in each period.
     #[test]
     fn periods_of_a_sine_are_found_between_ticks() {
         let mut meter = Meter::default();

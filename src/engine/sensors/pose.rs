@@ -11,7 +11,7 @@ use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 
 const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
 
-/// Where bodies are and how they are turned: `T.position.x`, `T.position.y` in m, `T.angle` in rad.
+/// The positions and angles of bodies: `T.position.x`, `T.position.y` in m, `T.angle` in rad.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Pose {

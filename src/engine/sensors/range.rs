@@ -1,8 +1,10 @@
-//! `Range(name: "eye", of: "car", at: (0.2, 0), angle: 0)`: how far a ray from a place of a body goes until it meets something.
+//! `Range(name: "eye", of: "car", at: (0.2, 0), angle: 0)`: the distance along a ray from a place of a body to what it meets
+//! first.
 //!
-//! The ray begins at a place of the body and turns with it. It meets discs, shapes and walls, those of its own body and such as touch
-//! nothing left out. Half-planes, lines, and strips with one side are met from their open side, where their surface is: a strip half its
-//! thickness in front of its middle line. What a line goes around clockwise is a block of ground.
+//! The ray begins at a place of the body and turns with it. It meets discs, shapes and walls, except those of its own body and
+//! those that touch nothing. It meets half-planes, lines, and strips with one side from their open side, at their surface. The
+//! surface of a strip is half its thickness in front of its middle line. A line that goes around a region clockwise makes it a
+//! block of ground.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -20,9 +22,9 @@ use jostle_shapes::{Hull, Pose, ray};
 
 const QUANTITIES: &[&str] = &["range"];
 
-/// How far in m a ray from a place of a body goes until it meets another body or a wall: `eye.range`. It is infinite if the ray meets nothing
-/// within its `reach`, and zero if it begins inside something. Lines, and strips with one side, are open from behind; what a
-/// line goes around clockwise is a block of ground.
+/// The distance in m along a ray from a body to the first other body or wall: `eye.range`. It is infinite if the ray meets
+/// nothing within its `reach`, and zero if it begins inside something. Lines, and strips with one side, are open from behind. A
+/// line that goes around a region clockwise makes it a block of ground.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Range {
@@ -30,8 +32,8 @@ struct Range {
     name: String,
     /// The body that carries it.
     of: String,
-    /// Where the ray begins, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in m. Default: the centre
-    /// of mass.
+    /// The beginning of the ray in the body's frame, in m. It counts from the centre of mass, or from the origin with
+    /// `datum: Origin`. Default: the centre of mass.
     at: Option<Position>,
     /// The direction of the ray in the body's frame, counter-clockwise from its x axis, in rad. Default: 0.
     #[serde(default)]
@@ -49,7 +51,7 @@ struct Beam {
     reach: f64,
 }
 
-/// What the scene asks for.
+/// The sensors of the scene.
 #[derive(Resource, Default)]
 struct Beams(Vec<(String, Beam)>);
 

@@ -1,10 +1,10 @@
 //! `Repose(name: "heap", of: "grain_*")`: the angle of repose of a heap, by least squares through its free surface.
 //!
-//! The angle of repose is that of the free surface against the horizontal (Beakawi Al-Hashemi and Baghabra Al-Amoudi, Powder Technology
-//! 330, 2018, section 1.2). The plane is cut into upright columns of equal width. The highest point of a body in each is a point of the
-//! surface; the highest of all is the summit, the lowest the base. On each side of the summit a straight line is fitted to the points by
-//! least squares (Legendre 1805), with heights as the dependent variable. Only points between two shares of the height of the summit above
-//! the base count, as the toe spreads and the crest is round.
+//! The angle of repose is that of the free surface against the horizontal. Source: Beakawi Al-Hashemi and Baghabra Al-Amoudi,
+//! Powder Technology 330, 2018, section 1.2. The plane is cut into upright columns of equal width. In each column the highest
+//! point of a body is a point of the surface. The highest of these is the summit, the lowest the base. On each side of the summit
+//! least squares (Legendre 1805) fit a straight line to the points. Heights are the dependent variable. Only points between two
+//! shares of the height count, because the toe spreads and the crest is round.
 //!
 //! Upwards is against gravity; without gravity it is along y.
 
@@ -28,13 +28,13 @@ use crate::world::sections::Region;
 
 const QUANTITIES: &[&str] = &["repose", "repose.left", "repose.right"];
 
-/// A line is fitted to so many points at least: through two any line goes.
+/// A line is fitted to at least this many points, because two points always have a line through both.
 const FEWEST: usize = 3;
 
-/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks, `heap.repose` is their mean.
-/// The heap is cut into upright columns, and the highest point of a body in each is a point of the free surface. A straight line is fitted to
-/// the points of a flank by least squares. An angle is positive where the flank rises to the summit. A flank with fewer than three points is
-/// NaN, and the mean is then that of the other flank.
+/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks, `heap.repose` is
+/// their mean. The heap is cut into upright columns. In each of them the highest point of a body is a point of the free surface.
+/// Least squares fit a straight line to the points of a flank. An angle is positive where the flank rises to the summit. A flank
+/// with fewer than three points is NaN, and the mean is then that of the other flank.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Repose {
@@ -42,8 +42,8 @@ struct Repose {
     name: String,
     /// The bodies of the heap, `*` matches.
     of: Names,
-    /// Only bodies whose centre of mass is in this region count: two opposite corners of a box, or the corners of a polygon in order, in m.
-    /// Default: everywhere.
+    /// Only bodies whose centre of mass is in this region count. It is two opposite corners of a box, or the corners of a polygon
+    /// in order, in m. Default: everywhere.
     within: Option<Region>,
     /// Only bodies that are slower count, in m/s: bodies that still fall are no part of the heap. Above zero. Default: all bodies count.
     slower_than: Option<Speed>,
@@ -58,7 +58,7 @@ fn middle() -> (Scalar, Scalar) {
     (Scalar::new(0.2), Scalar::new(0.8))
 }
 
-/// What the scene asks for.
+/// The sensors of the scene.
 #[derive(Resource, Default)]
 struct Asked(Vec<Heap>);
 
@@ -148,7 +148,8 @@ fn surface(tops: Vec<DVec2>, column: f64) -> Vec<DVec2> {
     highest.into_values().collect()
 }
 
-/// Angles of the lines through the left and the right flank of a surface in rad, each positive where it rises to the summit.
+/// Angles in rad of the lines through the left and the right flank of a surface. Each is positive if the flank rises to the
+/// summit.
 fn flanks(surface: &[DVec2], shares: (f64, f64)) -> [f64; 2] {
     let Some(summit) = surface.iter().copied().reduce(|a, b| if b.y > a.y { b } else { a }) else {
         return [f64::NAN; 2];
@@ -206,8 +207,8 @@ pub(super) fn plugin(app: &mut App) {
 mod tests {
     use super::*;
 
-    /// Law: least squares through `(0, 0), (1, 2), (2, 1)` has the slope 1/2, by hand: the middle is (1, 1), the products sum up to 1, the
-    /// squares to 2.
+    /// Law: least squares through `(0, 0), (1, 2), (2, 1)` has the slope 1/2. By hand: the middle is (1, 1), the products sum up
+    /// to 1, the squares to 2.
     #[test]
     fn a_line_of_least_squares_by_hand() {
         assert_eq!(slope(&[(0.0, 0.0), (1.0, 2.0), (2.0, 1.0)].map(DVec2::from)), 0.5);

@@ -11,7 +11,7 @@ use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 
 /// The columns of the sensor.
 const COLUMNS: &[&str] = &["velocity.x", "velocity.y", "spin"];
-/// What can be asked for by name.
+/// The quantities that plots and expectations may name.
 const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin", "speed"];
 
 /// How fast bodies move and turn: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s. Plots and expectations may also name
