@@ -1,8 +1,8 @@
 //! A scene inside a Bevy app: [`PhysicsPlugin`] reads it into the app's world and runs its ticks in `FixedPostUpdate`.
 //!
-//! A tick always lasts the physics clock's `dt`, whatever the app believes: the bits are those of a headless run. The
-//! app decides only *when* ticks run, and [`Pace`] how many: as many as keep the physics on the clock of the game, or one for
-//! each fixed timestep. How it goes stands in the resource [`Run`], and nothing panics.
+//! A tick always lasts the physics clock's `dt`, whatever the app's timestep. So the bits are those of a headless run. The app
+//! decides only *when* ticks run, and [`Pace`] decides how many. Either the physics keeps to the clock of the game, or each fixed
+//! timestep has one tick. The resource [`Run`] tells how the run goes, and nothing panics.
 //!
 //! ```
 //! use bevy_app::{App, FixedPostUpdate};
@@ -46,8 +46,8 @@ pub struct Physics;
 /// How the app's fixed timestep and the physics clock's tick belong together.
 #[derive(Clone, Copy, Debug)]
 pub enum Pace {
-    /// As many ticks in each `FixedPostUpdate` as keep the physics on the clock of the game, behind it by less than a tick. The
-    /// function says how long the app's timestep is; with Bevy's time: `|world| world.resource::<Time<Fixed>>().timestep()`.
+    /// Each `FixedPostUpdate` runs the ticks that are due. So the physics is behind the game by less than a tick. The function
+    /// says how long the app's timestep is; with Bevy's time: `|world| world.resource::<Time<Fixed>>().timestep()`.
     SameClock(fn(&World) -> Duration),
     /// A tick in each `FixedPostUpdate`, whose timestep is as long as a tick: the run stops if not. The function is that of
     /// [`Pace::SameClock`].
@@ -65,7 +65,7 @@ pub enum Run {
     Ended,
     /// The scene could not be read; nothing runs.
     Refused(SceneErrors),
-    /// A number stopped being finite; the state stays as it was found then.
+    /// The run failed, because a number is infinite or NaN, for example. The state stays as the engine left it.
     Failed(Failure),
     /// The app's fixed timestep is not the clock's tick: with [`Pace::Checked`] nothing runs until that is mended.
     OutOfStep {
@@ -77,7 +77,7 @@ pub enum Run {
 }
 
 impl Run {
-    /// What went wrong, in words; nothing if all is well.
+    /// The trouble of the run in words; `None` if there is none.
     pub fn trouble(&self) -> Option<String> {
         match self {
             Self::Running | Self::Ended => None,
@@ -102,12 +102,12 @@ struct Elapsed(Duration);
 
 /// Reads a scene with the standard plugins into the app and runs it in `FixedPostUpdate`. One scene per app.
 ///
-/// Look into [`Run`] for how it goes. [`PhysicsPlugin::install`] does the same and returns the scene's mistakes.
+/// The resource [`Run`] tells how the run goes. [`PhysicsPlugin::install`] does the same and returns the scene's mistakes.
 #[derive(Clone, Debug)]
 pub struct PhysicsPlugin {
     /// The scene.
     pub source: Source,
-    /// What is wanted otherwise than the scene says. Default: nothing.
+    /// Settings in place of those in the scene. Default: none.
     pub overrides: Overrides,
     /// Registers further forces, sensors ... before the scene is read. Default: none.
     pub plugins: fn(&mut App),
@@ -194,13 +194,13 @@ fn tick(world: &mut World, pace: Pace) {
         }
         _ => Run::Running,
     };
-    // Whoever tells the user asks whether the resource has changed: not in every tick.
+    // Systems that tell users about trouble look for changes of the resource, so it must not change in every tick.
     if std::mem::discriminant(&next) != now {
         world.insert_resource(next);
     }
 }
 
-/// Whole ticks in a time; one that is reached but for rounding is reached. The time in seconds, the tick and their ratio are rounded.
+/// Whole ticks in a time. A tick counts if it is reached to within rounding: time, tick and their ratio are rounded.
 fn ticks_in(time: Duration, dt: f64) -> u64 {
     (time.as_secs_f64() / dt * (1.0 + 4.0 * f64::EPSILON)) as u64
 }
@@ -210,7 +210,7 @@ mod tests {
     use super::ticks_in;
     use std::time::Duration;
 
-    /// Law: the physics is behind the game by less than a tick, and by none where ticks divide the timestep, for days.
+    /// Law: for days the physics is behind the game by less than a tick. If ticks divide the timestep, it keeps up exactly.
     #[test]
     fn ticks_keep_to_the_clock_of_the_game() {
         for (step, dt, per_step) in

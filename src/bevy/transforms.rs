@@ -1,4 +1,4 @@
-//! Places of bodies for what draws them: the `Transform` of each body follows its position and its angle.
+//! Transforms of bodies for the programs that draw them: each `Transform` follows the position and the angle of its body.
 
 use std::f64::consts::TAU;
 
@@ -9,8 +9,8 @@ use bevy_transform::components::Transform;
 use super::Physics;
 use crate::world::{Body, Position, Rotation};
 
-/// Gives each body a `Transform`, and brings it up to date in the beginning and after each `FixedPostUpdate`: x and y, and the
-/// rotation about z. Its z and its scale are the app's.
+/// Gives each body a `Transform`, and updates it at the start and in each `FixedPostUpdate`, after the ticks. It sets x, y and
+/// the rotation about z. The app sets z and the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SyncTransforms {
     /// How long a metre is in the app, such as 100 for a hundred pixels.
@@ -43,7 +43,7 @@ fn follow(mut commands: Commands, mut bodies: Bodies, scale: f64) {
         at.rotate_z((rotation.0 % TAU) as f32);
         (own.translation, own.rotation) = (at.translation, at.rotation);
         match transform {
-            // What has not moved does not count as changed.
+            // A body that has not moved does not count as changed.
             Some(mut transform) => _ = transform.set_if_neq(own),
             None => _ = commands.entity(body).insert(own),
         }
