@@ -139,7 +139,7 @@ fn anchors(simulation: &Simulation) -> Vec<Seen> {
     simulation.get_resource::<Anchors>().map_or_else(Vec::new, |anchors| anchors.0.iter().filter_map(seen).collect())
 }
 
-/// What only a film would be refused for: its theme, and moments that are not in the run.
+/// Mistakes for which only `render` refuses a scene: an unknown theme, and moments that are not in the run.
 fn refused_by_render(request: Request, source: &Source, simulation: &Simulation) -> Option<Exit> {
     let theme = colors::theme(request, source, simulation, None).err();
     theme.or_else(|| Misfit::of(simulation).map(|misfit| misfit.refuse(request, Exit::SceneWrong)))

@@ -32,8 +32,8 @@ pub(super) struct Request<'a> {
 }
 
 impl Request<'_> {
-    /// Reads and prepares the scene; prints its mistakes. It also returns the source, which may come from a pipe, so
-    /// that a second run does not read it again.
+    /// Reads and prepares the scene; prints its mistakes. It also returns the source, because a second run cannot read a pipe
+    /// again.
     pub fn load(self, settings: &[(String, String)], overrides: &Overrides) -> Result<(Source, Simulation), Exit> {
         self.read(settings, overrides).map_err(|errors| self.refuse_scene(&errors))
     }

@@ -331,7 +331,7 @@ impl PlotCommand {
     }
 }
 
-/// What speaks against writing a figure to a path.
+/// The reason for which a figure cannot be written to a path, if there is one.
 fn objection(request: Request, path: &Path) -> Option<String> {
     let name = path.display();
     if is_directory(path) {

@@ -1,4 +1,4 @@
-//! At which ticks rows of channels are written: at the nearest one to each multiple of a time.
+//! The ticks at which rows of channels are written: the nearest one to each multiple of a time.
 
 use super::say::{number, say};
 use crate::simulation::Simulation;
@@ -37,7 +37,7 @@ impl Rows {
 mod tests {
     use super::Rows;
 
-    /// Law: row k stands at the tick nearest to k times the distance, so no more than half a tick from it, however many rows.
+    /// Law: row k stands at the tick nearest to k times the distance, so within half a tick of it.
     #[test]
     fn rows_do_not_drift_from_their_moments() {
         for every in [1.0, 1.2, 2.5, 83.0 + 1.0 / 3.0, 1e4 / 7.0] {

@@ -9,7 +9,7 @@ pub(super) fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 
-/// Does `work` once for each item on this many threads. `told` receives the results in the order of the items, each as
+/// Does `work` once for each item on this many threads. `told` receives the results in the order of the items. Each arrives as
 /// soon as it and all before it are done.
 pub(super) fn in_order<Item: Sync, Done: Send>(
     items: &[Item],

@@ -122,7 +122,7 @@ impl Squeeze<'_> {
         Ok(written)
     }
 
-    /// Enlarges the pictures of a film that fits as far as possible, because the rungs of the ladder are far apart.
+    /// Enlarges the pictures of a fitting film as far as possible, because the rungs of the ladder are far apart.
     fn refine(
         &self,
         order: &Order,

@@ -11,7 +11,7 @@ use crate::report::bench::resident;
 use crate::simulation::Overrides;
 use crate::simulation::Simulation;
 
-/// Bytes of another process that reads a scene and runs a round of it; `None` if the system does not provide them.
+/// Bytes of another process that reads a scene and runs a round of it. `None` if the system does not provide them.
 pub(super) fn of_other_process(bench: &Bench, scene: &str, ticks: u64) -> Option<u64> {
     resident()?;
     let mut command = Command::new(std::env::current_exe().ok()?);

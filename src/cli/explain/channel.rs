@@ -1,4 +1,4 @@
-//! What a channel is: its unit, whose it is, and the sensor that makes a column of it.
+//! The meaning of a channel: its unit, its owner, and the sensor that makes a column of it.
 
 use crate::cli::Exit;
 use crate::cli::author;
@@ -33,7 +33,7 @@ const SCENE: &str = r#"Scene(
     controllers: [Motor(name: "drive", of: "hinge", speed: 1)],
 )"#;
 
-/// What is said of a channel's name: of all of it, or of the quantity alone. Nothing, if there is no such channel.
+/// The text about a channel's name: the whole name, or the quantity alone. `None` if there is no such channel.
 pub(super) fn told(what: &str, registry: &SceneRegistry, language: &Language) -> Option<String> {
     let whole = registry.words(CHANNELS);
     if let Some(name) =
@@ -133,7 +133,7 @@ fn in_unit(unit: &str) -> String {
 /// The sensors that say of themselves that they measure a quantity, with what they say.
 fn measured(quantity: &str, owner: Option<&str>, registry: &SceneRegistry, language: &Language) -> String {
     let whole = quantity.contains('.') && registry.words(CHANNELS).contains(&quantity);
-    // What is said of x holds of y too.
+    // Sensors that document x measure y too.
     let other = quantity.strip_suffix(".y").map(|stem| format!("{stem}.x"));
     let says = |told: &str, quantity: &str| {
         if whole { told.contains(&format!("`{quantity}`")) } else { told.contains(&format!(".{quantity}`")) }

@@ -8,13 +8,13 @@ use crate::cli::CommandLine;
 pub(super) struct Flag {
     /// Its name, without the dashes.
     pub name: String,
-    /// What stands behind it, such as `=N`; empty if nothing does.
+    /// Its value as the help shows it, such as ` N`; empty if the flag takes none.
     value: String,
     meaning: String,
     commands: Vec<String>,
 }
 
-/// The flags of all commands; one that means different things to several commands is there several times.
+/// The flags of all commands. If a flag has several meanings, it stands once for each.
 pub(super) fn all() -> Vec<Flag> {
     let mut flags: Vec<Flag> = Vec::new();
     for command in CommandLine::command().get_subcommands() {

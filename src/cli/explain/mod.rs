@@ -1,4 +1,4 @@
-//! `jostle explain`: what a scene does in a tick and what that costs; what a name or a word means.
+//! `jostle explain`: the stages of a scene's tick and their costs, or the meaning of a name or a word.
 
 mod channel;
 mod flag;

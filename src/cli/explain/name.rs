@@ -1,4 +1,4 @@
-//! What a name of the scene language or a word on the card means.
+//! The meaning of a name of the scene language, or of a word on the card.
 
 use bevy_app::App;
 
@@ -51,7 +51,7 @@ fn singular(what: &str) -> String {
     stem.unwrap_or_else(|| what.strip_suffix('s').unwrap_or(what).to_owned())
 }
 
-/// What is said of a name, and all names that there are.
+/// The texts about a name, and all names that exist.
 fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
     let registry = app.world().resource::<SceneRegistry>();
     let language = Language::of(registry);

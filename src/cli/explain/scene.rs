@@ -1,4 +1,4 @@
-//! A scene taken apart: what it names, what runs in a tick, where the time goes.
+//! The anatomy of a scene: the entries that it names, the systems of a tick, the time of each stage.
 
 use crate::SimulationExt;
 use crate::cli::paths::handed_on;
@@ -27,7 +27,7 @@ const WATCHED: Duration = Duration::from_millis(2500);
 /// Fewer ticks have no first and last tenth to be compared.
 const FEWEST_TICKS: u64 = 100;
 
-/// What was found out about a scene.
+/// The findings about a scene.
 pub(super) struct Anatomy {
     title: Option<String>,
     things: String,
@@ -225,7 +225,7 @@ impl Anatomy {
 /// How long a batch of ticks takes at least, between two marks.
 const BATCH: Duration = Duration::from_millis(3);
 
-/// Runs until a tick, the end of the scene or that of the time, and marks ticks and seconds spent on the way.
+/// Runs until a tick, or until the scene or the time is over. On the way it marks ticks and seconds spent.
 fn run_for(
     simulation: &mut Simulation,
     until: u64,
@@ -245,7 +245,7 @@ fn run_for(
     Ok(())
 }
 
-/// Seconds per tick in the first and in the last tenth of ticks, between the marks that are nearest to their ends.
+/// Seconds per tick in the first and in the last tenth of ticks, between the marks nearest to their ends.
 fn tenths(marks: &[(u64, f64)], ticks: u64) -> Option<[f64; 2]> {
     let nearest = |tick: u64| marks.iter().min_by_key(|(marked, _)| marked.abs_diff(tick)).copied();
     let between = |from: u64, to: u64| {
@@ -312,7 +312,7 @@ fn named(simulation: &Simulation) -> Vec<Named> {
     named
 }
 
-/// What the scene names, with the modules that read it.
+/// The sections and entries that the scene names, with the modules that read them.
 fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
     let outline = &simulation.header().outline;
     let registry = simulation.resource::<SceneRegistry>();
@@ -336,7 +336,7 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
 fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
     let Some(watch) = world.resource::<State>().stopwatch() else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
-    // Between two ticks, but for the loop, is the time in which nothing runs.
+    // Nothing runs between two ticks, except the loop, so that time belongs to no stage.
     let in_ticks = |part: &Part| *part != Part::Between;
     let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
     let systems = stopwatch::systems(world);
@@ -383,7 +383,7 @@ impl System {
 mod tests {
     use super::tenths;
 
-    /// Ticks that cost k us at tick k: the first tenth of a thousand costs 50 us a tick in the mean, the last 950 us.
+    /// Tick k costs k us. So in the first tenth of a thousand ticks the mean cost is 50 us, in the last 950 us.
     #[test]
     fn the_tenths_of_a_run_that_grows_dear_differ() {
         let marks: Vec<(u64, f64)> = (0..=1000).step_by(20).map(|tick| (tick, 0.5e-6 * (tick * tick) as f64)).collect();
