@@ -1,8 +1,8 @@
 //! Projection of positions and velocities onto the joints, along the directions in which joints push.
 //!
-//! Positions: `g(q + M^-1 F mu) = 0`, by iteration with the factor of one state (Hairer, Lubich, Wanner, Geometric
-//! Numerical Integration, 2nd ed. 2006, section VII.1.4). Velocities: `J(q) (v + M^-1 F mu) = rate`, by one solution
-//! and one refinement. Both make the least change of the state, measured by mass.
+//! Positions: `g(q + M^-1 F mu) = 0`, by iteration with the factor of one state. Source: Hairer, Lubich, Wanner, Geometric
+//! Numerical Integration, 2nd ed. 2006, section VII.1.4. Velocities: `J(q) (v + M^-1 F mu) = rate`, by one solution and one
+//! refinement. Both make the least change of the state, measured by mass.
 
 use glam::DVec2;
 

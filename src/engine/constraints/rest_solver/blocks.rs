@@ -35,9 +35,9 @@ pub(super) struct Normals {
     pub band: [Eight; 2],
     /// In newtons.
     pub force: Eight,
-    /// A bit for each force that stands at a bound: it would have to leave its band to stop the contact.
+    /// A bit for each force that stands at a bound. Such a force would have to leave its band to stop the contact.
     pub at_limit: u8,
-    /// How many lanes have a contact: the first ones.
+    /// The number of lanes with a contact, which are the first ones.
     pub count: u8,
 }
 
@@ -196,7 +196,7 @@ impl Normals {
         both(&mut self.inverse_inertia, [sides.a.inverse_inertia, sides.b.inverse_inertia]);
         let (least, greatest) = contact.band;
         both(&mut self.band, [least, greatest]);
-        // Where overlaps have become infinite, the bounds are NaN. The force then is NaN too, and the run ends with that.
+        // If overlaps have become infinite, the bounds are NaN. Then the force is NaN too, which ends the run.
         self.gain[lane] = if least <= greatest { 1.0 / (normal.mobility * dt) } else { f64::NAN };
         self.relaxation[lane] = if coupled { over.min(COUPLED) } else { over };
         self.force[lane] = contact.normal_force;

@@ -1,5 +1,6 @@
-//! Level scheduling (Anderson and Saad 1989) of contacts: blocks of eight that share no body that moves by forces, each behind all
-//! blocks with earlier contacts of its bodies. So eight are relaxed side by side with the very result of one after the other.
+//! Level scheduling (Anderson and Saad 1989) of contacts in blocks of eight. The contacts of a block share no body that moves by
+//! forces. A block stands behind all blocks with earlier contacts of its bodies. So eight contacts are relaxed side by side, with
+//! the same bits as one after the other.
 
 use jostle_simd::BLOCK;
 

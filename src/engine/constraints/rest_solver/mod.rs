@@ -1,13 +1,13 @@
 //! The rest solver: implicit discretisation of set-valued contact laws (Moreau 1988; Acary and Brogliato 2008, chapter 1).
 //!
 //! A contact that does not move may have any normal force `N` in the band `[1 - mu_e, 1 + mu_e] k d` of its law. Its tangential
-//! force is at most `mu N`, its rolling torque at most `mu_r R N`. For the coming tick the solver gives each contact that could
-//! stop the force that makes its velocity zero. If a bound of the law is in the way, the contact gets that bound. There is no
-//! threshold of speed: a contact stops where its bounds suffice within the tick, and nowhere else.
+//! force is at most `mu N`, its rolling torque at most `mu_r R N`. For each contact that could stop, the solver finds the force
+//! that makes its velocity zero within the tick. If a bound of the law is in the way, the contact gets that bound. There is no
+//! threshold of speed: a contact stops if its bounds suffice within the tick, and only then.
 //!
-//! The equations are solved by projected successive over-relaxation (Cryer 1971) from the present forces. Where no bound is
-//! active they are linear. There conjugate gradients reduce the velocities of a slow island by a factor per tick, whatever the
-//! ratio of masses, and reach rounding after a few ticks. Rows of joints take part with forces that have no bounds.
+//! The equations are solved by projected successive over-relaxation (Cryer 1971) from the present forces. Equations without
+//! active bounds are linear. Conjugate gradients solve these in slow islands. They reduce velocities by a factor per tick,
+//! whatever the ratio of masses, and reach rounding after a few ticks. Rows of joints take part with forces that have no bounds.
 
 mod blocks;
 mod frame;
@@ -56,7 +56,7 @@ const ROUNDING: f64 = 1e-12;
 pub struct Island {
     /// Vector instructions to be used.
     pub level: Level,
-    /// Velocities at the beginning of the tick: of the world, which does not move by forces, then of bodies and belts.
+    /// Velocities at the beginning of the tick. The first is that of the world, then come bodies and belts.
     pub begin: Vec<Mover>,
     /// The same at the end of the tick, under the present forces; after [`Island::solve`] under the forces found.
     pub movers: Vec<Mover>,
@@ -154,8 +154,8 @@ impl Island {
     }
 }
 
-/// The best factor of over-relaxation for a square patch of contacts (Young 1954: `2/(1 + sin(pi/L))`, `L` contacts to a side),
-/// limited to the factors that few sweeps can use. Few contacts need none.
+/// The best factor of over-relaxation for a square patch of contacts, `2/(1 + sin(pi/L))` with `L` contacts to a side (Young
+/// 1954). It is limited to factors that few sweeps can use. Few contacts need none.
 fn relaxation(contacts: usize) -> f64 {
     if contacts <= FEW {
         return 1.0;

@@ -11,7 +11,7 @@ use super::row::{Mover, Row, Sides};
 pub(super) struct Found<'a> {
     pub blocks: &'a Blocks,
     pub contact: &'a RestContact,
-    /// Where it stands in the blocks.
+    /// Its index in the blocks.
     pub index: usize,
     /// All movers at the beginning of the tick, and at its end.
     pub movers: [&'a [Mover]; 2],

@@ -1,4 +1,4 @@
-//! A contact as the rest solver takes it, and what it gives back.
+//! The input of the rest solver for a contact, and its output.
 
 use glam::DVec2;
 
@@ -37,8 +37,8 @@ pub struct RestContact {
     pub normal_force: f64,
     /// Force in newtons that rounding of positions makes.
     pub noise: f64,
-    /// Whether the tangential and the rolling force may hold though their springs are drawn out. They may once the normal force has
-    /// held for a tick: so a contact that turns in a collision keeps the energy of its springs.
+    /// Whether the tangential and the rolling force may hold though their springs are stretched. They may once the normal force
+    /// has held for a tick. So a contact that turns from loading to unloading in a collision keeps the energy of its springs.
     pub engaged: bool,
     /// Whether the contact parts.
     pub parts: bool,

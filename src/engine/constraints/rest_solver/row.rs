@@ -23,16 +23,16 @@ impl Mover {
         self.inverse_mass > 0.0 || self.inverse_inertia > 0.0
     }
 
-    /// Whether it stands to rounding, under `load` newtons that act up to `extent` metres from its centre of mass over `dt`
-    /// seconds. A mover that does not move by forces has to stand exactly.
+    /// Whether its velocity is zero to within rounding. Rounding is that of `load` newtons, up to `extent` metres from its centre
+    /// of mass, over `dt` seconds. A mover that does not move by forces has to stand exactly.
     pub fn stands(&self, load: f64, extent: f64, dt: f64) -> bool {
         let limit = 10.0 * ROUNDING * load * dt;
         self.velocity.length() <= limit * self.inverse_mass && self.spin.abs() <= limit * extent * self.inverse_inertia
     }
 }
 
-/// One direction of a contact: a force along it acts on B, the opposite on A. For a torque the direction is zero and the
-/// levers are one.
+/// One direction of a contact. A force along it acts on side B, and the opposite force on side A of the contact. For a torque the
+/// direction is zero and the levers are one.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub(super) struct Row {
     direction: DVec2,

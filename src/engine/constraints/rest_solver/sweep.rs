@@ -44,8 +44,8 @@ impl Kernel for Sweep<'_> {
     }
 }
 
-/// Lets all forces of some contacts work over `dt` seconds so that the contacts stop, as far as their bounds allow: normal forces,
-/// friction under these, then rolling torques. Returns bits of those with a force that has changed.
+/// Relaxes the forces of some contacts so that they stop within `dt` seconds, as far as bounds allow. Normal forces come first,
+/// then friction under these, then rolling torques. Returns a bit for each contact with a force that has changed.
 #[inline(always)]
 fn relax<V: Lanes>(
     sides: &mut PairedQuads,
