@@ -22,7 +22,7 @@ impl CoulombSpring {
     }
 }
 
-/// A contact as the rest solver takes it.
+/// A contact as input of the rest solver.
 #[derive(Clone, Copy, Debug)]
 pub struct RestContact {
     /// Places of both sides in the list of movers.

@@ -4,7 +4,7 @@ use glam::DVec2;
 
 use super::ROUNDING;
 
-/// A body, or something that does not move by forces.
+/// A body, or a side of a contact that does not move by forces.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Mover {
     /// Velocity in m/s at the end of the tick, under the present forces.

@@ -38,8 +38,8 @@ impl Pair {
         (acceleration(self.b.body) - other).dot(self.normal)
     }
 
-    /// Whether a contact that is not held could stop within `dt` seconds: its normal velocity can be reversed by a force within the
-    /// bounds of its law, or by what its neighbours may do at the same time (as much again).
+    /// Whether a contact that is not held could stop within `dt` seconds. It could if a force within the bounds of its law can
+    /// reverse its normal velocity. Neighbours may do as much again at the same time.
     pub(super) fn could_stop<N: NormalForce>(
         &self,
         contact: &Contact,

@@ -47,7 +47,7 @@ impl Held {
         self.contacts.clear();
     }
 
-    /// The contact of each row, the held part, and the force in newtons or torque in N m on side B.
+    /// The contact of each row, the held part, and the force in newtons or torque in N m. Both act on side B of the contact.
     pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a PairGeometry, Kind, f64)> + 'a {
         let indices = self.first..;
         self.contacts.iter().zip(indices).map(|((geometry, kind), index)| (geometry, *kind, rows.force(index)))

@@ -467,8 +467,8 @@ fn note_deepest(
     }
 }
 
-/// If some side lies in another part, adds the forces of a block to the bodies, one pair after the other. Otherwise
-/// [`Pushes::give`] adds them.
+/// Adds the forces of a block to the bodies, pair by pair, if some side lies in another part. Otherwise [`Pushes::give`] adds
+/// them.
 #[cold]
 fn push_among_parts(mut share: Share, found: &mut Found, sides: &PairBlock, touching: u8, pushes: &Pushes) {
     for lane in lanes(touching) {

@@ -129,8 +129,8 @@ pub enum RollingLaw {
     None,
     /// A spring that gives way at a torque of `friction` times normal force and rolling radius.
     Spring {
-        /// Torque over normal force and rolling radius at which the spring gives way: the tangent of the steepest slope
-        /// on which a disc stays. Not negative; with 0 nothing resists rolling, as with `None`.
+        /// Torque over normal force and rolling radius at which the spring gives way. It is the tangent of the steepest slope on
+        /// which a disc stays. Not negative; with 0 nothing resists rolling, as with `None`.
         friction: f64,
         /// Stiffness of the spring at the rim over that of the normal one. Default: 0.8.
         #[serde(default = "default_ratio")]

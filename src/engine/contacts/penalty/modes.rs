@@ -1,4 +1,4 @@
-//! The choice of modes of contacts for the tick to come: loading, unloading, or held at rest by the rest solver.
+//! The choice of modes of contacts for the tick to come: loading, unloading, or held by the rest solver.
 
 use glam::DVec2;
 
@@ -320,8 +320,8 @@ impl Choice<'_> {
         }
     }
 
-    /// Stops the contacts of an island as far as their laws allow, and lays it to rest if nothing in it moves. `may_rest`: all of
-    /// its contacts could stop within the tick.
+    /// Stops the contacts of an island as far as their laws allow. If nothing in the island moves then, lays it to rest.
+    /// `may_rest`: all of its contacts could stop within the tick.
     fn stop<N: NormalForce>(
         &mut self,
         (cases, joined, members): (&[Pair], &[Joined], &Members),

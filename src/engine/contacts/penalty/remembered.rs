@@ -34,9 +34,9 @@ pub(super) struct Sides {
 /// The memory of each pair in a list; empty without hulls.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct Remembered {
-    /// For a side: its unit normal, its beginning, the range of probes along it, and the radii of hull and probe. For a
-    /// line: its unit normal, zero, and the point of a touch along the normal; the range is empty. Lengths are in
-    /// metres, in the frame of the hull.
+    /// For a side: its unit normal, its beginning, the range of probes along it, the radii of hull and probe. For a line: its
+    /// unit normal, zero, and the point of a touch along the normal; the range is empty. Lengths are in metres, in the frame of
+    /// the hull.
     pub records: Vec<Record>,
     pub sides: Vec<Sides>,
 }

@@ -93,8 +93,8 @@ pub(super) fn stiffness(ratio: f64, normal: f64, radius: f64) -> f64 {
     ratio * normal * radius * radius
 }
 
-/// `torque` acts on side A, the opposite on side B. A side that does not move by forces takes it from outside, and does
-/// work as it turns.
+/// Applies `torque` to side A of a contact, and its opposite to the other side. Without a body A, only the other side turns. A
+/// side that does not move by forces takes the torque from outside, and does work as it turns.
 pub(super) fn twist(bodies: &mut Bodies, rates: &mut Rates, a: Option<&End>, b: &End, torque: f64) {
     bodies.torque[b.body] -= torque;
     match a {

@@ -1,13 +1,13 @@
 //! Exponential back-off of the search for rest ([`crate::constraints::rest_solver`]).
 //!
-//! The search costs several times as much as the contacts themselves. Under a law whose normal force has one value at rest, it
-//! finds only whether a whole heap may be laid to rest. While one grain moves, forces change everywhere, and springs hold friction
-//! without the search. So among thousands of contacts it runs now and then. After a search that laid nothing to rest the time to
-//! the next one doubles. Under `Inelasticity` the search runs at each tick: it alone finds the force of a contact that neither loads
-//! nor unloads.
+//! The search costs several times as much as the contacts themselves. Some laws have a single normal force at rest. Under these
+//! the search only finds whether a whole heap may be laid to rest. While one grain moves, forces change everywhere, and springs
+//! hold friction without the search. So among thousands of contacts it runs now and then. After a search that laid nothing to
+//! rest the time to the next one doubles. Under `Inelasticity` the search runs at each tick. It alone finds the force of a
+//! contact that neither loads nor unloads.
 
 use serde::{Deserialize, Serialize};
-/// Contacts up to which rest is looked for at each tick; those of bodies at rest do not count.
+/// Up to this number of contacts the search runs at each tick. Contacts of bodies at rest do not count.
 pub const MANY: usize = 1024;
 /// Ticks to the next search, at first and at most.
 const SHORTEST: u64 = 256;
@@ -18,7 +18,7 @@ const TRIES: u32 = 8;
 /// Ticks without conjugate gradients in large islands, after as many tries in a row as [`TRIES`] laid nothing to rest.
 const PAUSE: u64 = 64;
 
-/// When rest is looked for.
+/// The schedule of the search for rest.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub(super) struct SearchSchedule {
     /// The tick from which conjugate gradients are tried again in large islands.
@@ -72,7 +72,7 @@ impl SearchSchedule {
         !waits
     }
 
-    /// Whether conjugate gradients are to be tried in large islands. They do harm where bounds are in the way: they stop all contacts at
+    /// Whether large islands try conjugate gradients. These do harm if bounds are in the way. They then stop all contacts at
     /// once, with forces that the next tick cannot keep.
     pub fn tries_thoroughly(&self, ticks: u64) -> bool {
         ticks >= self.thorough_from

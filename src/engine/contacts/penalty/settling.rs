@@ -1,5 +1,5 @@
-//! Modes from the forces of a state instead of the mode before. They serve states that others have made, and states
-//! behind an event, at which forces have jumped.
+//! The choice of modes from the forces of a state, without regard to the mode before. It serves states that these contacts have
+//! not made themselves, and states behind an event, at which forces have jumped.
 
 use super::coulomb::{Grip, Slider, SliderLaw};
 use super::normal::{Mode, NormalForce};

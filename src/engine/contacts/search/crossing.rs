@@ -1,9 +1,9 @@
 //! Tunnelling: atoms that pass through walls with ends, and corners that pass through hulls. The run ends, with both
 //! names.
 //!
-//! Such a wall is open on both sides. So it would push out an atom on the other side if its centre has passed the
-//! middle line. The same holds for the middle line of a capsule, and for a depth in a hull of half its width. Soft
-//! contacts allow that. So do ticks in which a small atom goes farther than its width. A film would not show it.
+//! Such a wall is open on both sides. So it would push out an atom on the other side if its centre has passed the middle line.
+//! The same holds for the middle line of a capsule, and for half the width of a hull. Soft contacts allow that. So do ticks in
+//! which a small atom goes farther than its width. A film would not show it.
 //!
 //! A line pushes atoms behind it back to its open side. That ends if the centre of a disc, or a corner, may have come
 //! from elsewhere because of its depth.
@@ -25,8 +25,8 @@ use crate::world::{Bodies, PackedHull};
 /// A probe that passes through a hull reaches this share of half its width.
 const THROUGH: f64 = 0.5;
 
-/// The greatest depth of a probe at which the nearest side is its entry, as a share of half the hull's width. It is
-/// also the greatest depth of a centre behind a line, as a share of half its owner's width.
+/// The greatest depth, as a share of half the hull's width, at which a probe's nearest side is its entry. It is also the greatest
+/// depth of a centre behind a line, as a share of half its owner's width.
 const DEEPEST: f64 = 0.9;
 
 /// The positions at the beginning of the current step.
@@ -359,7 +359,7 @@ fn met_sharp(pair: SurfacePair, bodies: &Bodies) -> Option<Met> {
     Some(Met { nearest: nearest(shape, place), place, radius })
 }
 
-/// The cosine of the greatest angle between two sides that may take over a corner in a hull's core from each other.
+/// The cosine of the greatest angle between two sides that may hand over a corner in a hull's core.
 const LEAST_COSINE: f64 = 0.7;
 
 /// Whether a corner in the core of a hull touches another side than before.
@@ -394,7 +394,7 @@ fn has_turned_over(packed: &PackedHull, before: DVec2, now: DVec2) -> bool {
     owned && came.normal.dot(found.normal) < -LEAST_COSINE && way_in_core(packed, before, now).is_some()
 }
 
-/// The part of a straight way in the core of a polygon, as shares of the way (Cyrus and Beck 1978).
+/// Clips a segment by the core of a polygon (Cyrus and Beck 1978). Returns both ends as shares of its length.
 fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f64)> {
     let (mut enters, mut leaves) = (0.0_f64, 1.0_f64);
     for (side, corner) in packed.hull.sides().iter().zip(packed.hull.corners()) {
@@ -412,7 +412,7 @@ fn way_in_core(packed: &PackedHull, before: DVec2, now: DVec2) -> Option<(f64, f
     (enters < leaves).then_some((enters, leaves))
 }
 
-/// The least way in m to be deep in a hull or through it, for a probe at this distance from the core.
+/// The least way in m after which a probe is deep in a hull or through it, from this distance.
 fn left_to_cross(packed: &PackedHull, distance: f64) -> f64 {
     if packed.hull.corners().len() == 2 {
         return distance;
