@@ -137,7 +137,7 @@ enum Mode {
     Bounded(f64),
 }
 
-/// The rounding of an output, as a share of the numbers behind it; and the share within which a mode lasts.
+/// Shares of the numbers from which an output is found: its rounding, and the margin within which a mode lasts.
 const ROUNDING: f64 = 1e-14;
 const LASTS: f64 = 1e-12;
 

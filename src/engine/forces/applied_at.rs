@@ -1,4 +1,4 @@
-//! Where a force acts on its bodies: one point in the frame of each, counted from the datum of that body.
+//! The point of application of a force. It is one point in the frame of each body, counted from the body's datum.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;

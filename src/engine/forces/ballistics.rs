@@ -1,4 +1,4 @@
-//! Firing solutions by shooting: the velocity of a given size with which a point under gravity and drag hits a target.
+//! Firing solutions by the shooting method. A velocity of given size takes a point under gravity and drag to a target.
 //!
 //! Without drag `d = v t + g t^2/2` gives, for the speed `s`, a quadratic in `t^2`: `g^2 t^4/4 - (d.g + s^2) t^2 + d^2
 //! = 0`. Its roots are the low and the high arc. They meet at the least speed, `s^2 = |g| |d| - d.g` (any textbook).

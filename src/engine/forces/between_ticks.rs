@@ -1,4 +1,4 @@
-//! The effect of forces that begin, end or bend between the ticks of a run from tick to tick, for the card.
+//! Notes for the card on forces that begin, end or have a kink between two ticks.
 
 use crate::scene::Outline;
 use crate::tick::{Clock, EvaluationMode, State};

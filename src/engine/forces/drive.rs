@@ -33,8 +33,8 @@ struct Drive {
     force: Option<ForcePair>,
     /// Torque in N m, counter-clockwise, if the course is 1. Default: none.
     torque: Option<units::Torque>,
-    /// Where the force acts, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres. Default: the
-    /// centre of mass.
+    /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
+    /// with `datum: Origin`. Default: the centre of mass.
     at: Option<Position>,
     /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
@@ -275,7 +275,7 @@ pub struct DriveForce {
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
-    /// Where the force acts.
+    /// The point at which the force acts.
     pub at: AppliedAt,
     /// Force in newtons where the course is 1.
     pub force: DVec2,

@@ -192,7 +192,7 @@ pub(super) fn sides(a: &End, b: &End) -> Option<(Option<Side>, Side)> {
 /// A body and an arm from its centre of mass in metres.
 type Side = (usize, DVec2);
 
-/// Adds `force` newtons to end A and its opposite to end B. An end that forces do not move takes its force from
+/// Adds `force` newtons to end A, and the opposite force to the other end. An end that forces do not move takes its force from
 /// outside, and its motion does work.
 pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, rates: &mut Rates) {
     for (end, other, force) in [(a, b, force), (b, a, -force)] {

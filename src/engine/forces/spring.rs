@@ -28,11 +28,11 @@ struct Spring {
     a: String,
     /// The body at the other end, or `World`.
     b: Partner,
-    /// Where it holds `a`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres.
-    /// Default: the centre of mass.
+    /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`. Default: the
+    /// centre of mass.
     anchor_a: Option<Position>,
-    /// Where it holds `b`, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres; with `World` a
-    /// place in the world. Default: the centre of mass, or the origin of the world.
+    /// The anchor on `b` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`. With `World`
+    /// it is a place in the world. Default: the centre of mass, or the origin of the world.
     anchor_b: Option<Position>,
     /// Force over lengthening in N/m. Not negative.
     stiffness: Stiffness,

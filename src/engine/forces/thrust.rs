@@ -27,8 +27,8 @@ use crate::world::Bodies;
 struct Thrust {
     /// The bodies it acts on, `*` matches.
     of: Names,
-    /// Where it acts, in the body's frame from its centre of mass, or from the origin with `datum: Origin`, in metres. Default: the centre of
-    /// mass.
+    /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
+    /// with `datum: Origin`. Default: the centre of mass.
     at: Option<Position>,
     /// Force in newtons.
     force: ForcePair,
@@ -91,7 +91,7 @@ pub struct ThrustForce {
     pub path: String,
     /// The bodies it acts on.
     pub of: Targets,
-    /// Where it acts.
+    /// The point at which it acts.
     pub at: AppliedAt,
     /// Force in newtons.
     pub force: DVec2,
