@@ -172,7 +172,7 @@ pub(crate) struct PairGeometry {
     pub overlap: f64,
     /// Distance of the centres in metres; infinite for the flat side of a wall or hull; see [`NearestPoint::distance`].
     pub distance: f64,
-    /// For a nearest point on a flat side: the spin of the hull's body and the distance of cores in metres.
+    /// For a nearest point on a flat side: the spin of the hull's body and the cores' distance in metres.
     flat: Option<(f64, f64)>,
     /// Velocity in m/s of the centre of side B relative to that of side A, or to the wall's surface.
     pub velocity: DVec2,

@@ -77,7 +77,7 @@ pub struct EventStepper {
     control: Option<Control>,
     /// The angle in rad over which springs of contacts may swing in a step.
     swing: f64,
-    /// The state at the end of the last tick, or at the beginning of an unfinished step; and its rounding remainder.
+    /// The state at the end of the last tick, or at the beginning of an unfinished step. `rest` is its rounding remainder.
     state: Vec<f64>,
     rest: Vec<f64>,
     /// The step that extends beyond the last tick.

@@ -144,8 +144,8 @@ mod tests {
         Indicator { value: distance - 2.0 * r, slope: x * speed / distance, ..Indicator::default() }
     }
 
-    /// The gap between a peg at an angle of 2 rad on a circle of radius 1 and a disc on the circle. The disc circles
-    /// once in 6.3 seconds. The disc starts at the angle `begin`. The gap bends downwards everywhere except at the peg.
+    /// The gap between a disc on a circle of radius 1 and a peg at 2 rad on the circle. The disc circles once in 6.3 seconds. The
+    /// disc starts at the angle `begin`. The gap bends downwards everywhere except at the peg.
     fn gap_on_a_circle(t: f64, begin: f64) -> Indicator {
         let half = 0.5 * (t + begin - 2.0);
         Indicator {

@@ -1,5 +1,5 @@
-//! Bounded holding of a rate by a torque (Coulomb: stick and slip), for joint friction and motors with a greatest
-//! torque. While the torque suffices, a row holds the rate exactly. Otherwise the torque is the greatest one.
+//! Bounded holding of a rate by a torque (Coulomb: stick and slip). Joint friction and motors with a greatest torque use it.
+//! While the torque suffices, a row holds the rate exactly. Otherwise the torque is the greatest one.
 
 use serde::{Deserialize, Serialize};
 
@@ -160,8 +160,7 @@ impl Bounded {
         other
     }
 
-    /// Adds the indicator of the mode: the distance of the torque from its bounds, or of the rate from the required
-    /// one.
+    /// Adds the indicator of the mode. It is the distance of the torque from its bounds, or of the rate from the required one.
     pub fn tell(&mut self, pair: &Pair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
         (self.stands, self.tries) = (false, false);
         let rounding = ROUNDING * self.limit;

@@ -1,5 +1,5 @@
-//! A slide: anchor B stays on a line through anchor A that turns with body A, and B does not turn against A. It has two
-//! rows: across the line, and the angle.
+//! A slide (prismatic joint). A line through the anchor on body A turns with that body. The anchor on body B stays on the line,
+//! and both bodies turn alike. There are two rows: across the line, and the angle.
 
 use std::sync::Arc;
 
@@ -32,8 +32,7 @@ struct Prismatic {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<Position>,
-    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` if
-    /// both are left out.
+    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` without both.
     anchor_b: Option<Position>,
     /// Direction of the line in the frame of `a`; of any length but zero.
     axis: Position,

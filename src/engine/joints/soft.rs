@@ -2,8 +2,8 @@
 //! `f`, a damping ratio `D`, and the effective mass `m` at the start. They are `k = m (2 pi f)^2` and `c = 2 D m 2 pi
 //! f`.
 //!
-//! If two directions hold a point, both have one stiffness, by the mean of both responses. Both forces act at the
-//! anchor on B. So no direction of the world is preferred, and an open joint makes no angular momentum.
+//! If two directions hold a point, both have one stiffness, by the mean of both responses. Both forces act at the anchor on body
+//! B of the joint. So no direction of the world is preferred, and an open joint makes no angular momentum.
 
 use glam::DVec2;
 use schemars::JsonSchema;

@@ -30,8 +30,7 @@ struct Weld {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<Position>,
-    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` if
-    /// both are left out.
+    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` without both.
     anchor_b: Option<Position>,
     /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
     break_force: Option<Force>,

@@ -138,8 +138,8 @@ pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64
 
 /// The same for a body with parts with sides beside its atoms.
 ///
-/// Without any mass or density of a part, mass and inertia are those of the common area of all parts, uniformly heavy.
-/// Otherwise each part weighs separately, and overlaps of two parts count twice. The atoms together are one such part.
+/// If no part has a mass or density, mass and inertia are those of their union, uniformly heavy. Otherwise each part weighs
+/// separately, and overlaps of two parts count twice. The atoms together are one such part.
 pub fn of_parts(
     specs: &[AtomSpec],
     parts: &[Part],

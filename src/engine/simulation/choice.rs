@@ -250,8 +250,8 @@ fn plan_for(
     Ok(plan)
 }
 
-/// The time from frame to frame, or that of a `rate`, where the run is a whole number of them long; else a part of it of which the
-/// run is a whole number.
+/// The time from frame to frame, or that of a `rate`, if the run is a whole number of these. Otherwise a part of this time, such
+/// that the run is a whole number of parts.
 fn frame_tick(world: &World, duration: f64, rate: Option<f64>) -> Result<f64, Wrong> {
     let film = world.get_resource::<FilmSection>();
     let frame = film.map_or(1.0 / 30.0, |film| film.speed().abs() / film.frames_per_second());

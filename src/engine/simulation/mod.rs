@@ -47,7 +47,7 @@ pub struct Overrides {
     pub duration: Option<f64>,
     /// Ticks per second, where an error that is asked for leaves their length free. Default: the frames of the film.
     pub rate: Option<f64>,
-    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]; an empty list: no
+    /// Layers of the film beside those of the scene, by the words of [`crate::record::layers::WORDS`]. An empty list means no
     /// layers at all. They change nothing of the run.
     pub layers: Option<Vec<String>>,
     /// Vector instructions to use, which the processor must have. Default: the best it has. All give the same results to the

@@ -232,7 +232,7 @@ impl Sampled {
                 let curves = curves.into_iter().zip(labels);
                 let curves =
                     curves.map(|((_, channel, samples), label)| Curve { label, body: body(&channel), samples });
-                // What both axes begin with stands above them.
+                // An owner with which the names of both axes begin stands above them.
                 let (owner, [to_the_right, upwards]) = headed([&x, &shared]);
                 Plot {
                     title: titled(if owner.is_empty() { format!("{shared} against {x}") } else { owner }),

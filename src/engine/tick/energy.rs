@@ -68,8 +68,8 @@ impl EnergyLedger {
         known.into_iter().chain(self.accounts.iter().map(|(name, lost)| (*name, *lost)))
     }
 
-    /// Energy in J that friction and contacts have given, though they can only take: below zero, or back of a loss. Drag may give:
-    /// wind drives. Losses are sampled every few hundred ticks.
+    /// Energy in J that friction and contacts have given, though they can only take. It is a loss below zero, or the fall of a
+    /// loss. Drag may give energy, because wind drives bodies. Losses are sampled every few hundred ticks.
     pub fn given_back(&self, state: &State) -> f64 {
         let back = state.progress.energy.given_back(self.friction + self.inelasticity);
         back.max((-self.friction).max(0.0) + (-self.inelasticity).max(0.0))

@@ -145,8 +145,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         (self.dynamic.iter().zip(places).map(far).fold(0.0, f64::max), self.reach().speed)
     }
 
-    /// The greatest displacement of any point of a dynamic body by a change of the state (m), and its gain of speed
-    /// (m/s).
+    /// The greatest displacement in m and gain of speed in m/s that a change of the state makes. Any point of a dynamic body
+    /// counts.
     pub fn sizes_of(&self, change: &[f64]) -> (f64, f64) {
         let bodies = &self.tick.state.bodies;
         let size = |changes: &[f64]| {

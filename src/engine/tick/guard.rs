@@ -1,12 +1,11 @@
 //! The guard against created energy.
 //!
-//! The created energy is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input
-//! has three parts: kinetic and elastic energy at the beginning, energy released by fields since, and all positive work
-//! of drives. Near the critical tick the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`. That is fifty
-//! times at 0.99 of it. So the limit must be far above any factor that a stable run reaches. A run is stopped if it has
-//! created [`BEYOND`] times the input and its tick is above the critical one. At [`ENORMOUS`] times the input it is
-//! stopped for any tick. Rounding of large energies counts as input, and so does motion by a billionth of a size in a
-//! tick.
+//! The created energy is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input has three
+//! parts: initial kinetic and elastic energy, energy released by fields, and all positive work of drives. Near the critical tick
+//! the energy of a stable spring swings by `1/(1 - (dt/critical)^2)`. That is fifty times at 0.99 of it. So the limit must be far
+//! above any factor that a stable run reaches. A run is stopped if it has created [`BEYOND`] times the input and its tick is
+//! above the critical one. At [`ENORMOUS`] times the input it is stopped for any tick. Rounding of large energies counts as
+//! input, and so does motion by a billionth of a size in a tick.
 //!
 //! It checks every [`EVERY`] ticks. It also checks when a body travels farther in a tick than the smallest radius. When
 //! that way has doubled, it checks again. After contacts were seen to respond nearly as fast as a method allows, it
@@ -56,7 +55,8 @@ impl EnergyGuard {
         self.greatest + self.released
     }
 
-    /// The greatest fall in J of the loss to friction and inelasticity, which is `lost` J at present: energy that contacts gave back.
+    /// Energy in J that contacts gave back: the greatest fall of the loss to friction and inelasticity. That loss is `lost` J at
+    /// present.
     pub fn given_back(&self, lost: f64) -> f64 {
         self.given.max(self.taken - lost)
     }

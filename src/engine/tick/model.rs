@@ -246,7 +246,7 @@ pub struct Loss {
 
 /// State of a model's own and its events, for methods that take several stages per step.
 pub trait Events {
-    /// How many numbers of its own the integrator advances by the same method as positions: elongations of springs, integrals of
+    /// The number of own variables that the integrator advances with positions, such as elongations of springs or integrals of
     /// controllers. It may change when modes do, never inside a step. Default: none.
     fn length(&self) -> usize {
         0

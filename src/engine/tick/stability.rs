@@ -48,7 +48,8 @@ pub struct Foreseen {
 }
 
 impl Stability {
-    /// The stiffness that damping adds for the method, over the damping in N s/m and the limit over the tick in 1/s.
+    /// The weight with which the method counts damping as stiffness. That stiffness is the weight times the damping in N s/m,
+    /// times the limit over the tick in 1/s.
     pub fn weight_of_damping(&self) -> f64 {
         self.limit / self.damping_limit
     }

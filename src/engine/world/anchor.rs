@@ -1,7 +1,7 @@
 //! Anchors: points of bodies that a scene names, in the frame of the body.
 //!
-//! One rule holds for all of them. An anchor counts from the datum of its body: from the centre of mass, or with `datum: Origin` from
-//! where the places of its atoms are counted. An anchor that is left out is the centre of mass.
+//! One rule holds for all of them. An anchor counts from the datum of its body. The datum is the centre of mass, or with
+//! `datum: Origin` the point from which the places of atoms count. An anchor that is left out is the centre of mass.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -15,7 +15,7 @@ pub struct Anchors(pub Vec<Anchor>);
 /// One anchor.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Anchor {
-    /// Where it stands in the scene, such as `joints[0].anchor_a`.
+    /// Its path in the scene, such as `joints[0].anchor_a`.
     pub path: String,
     /// Its body.
     pub body: Entity,
@@ -32,12 +32,12 @@ impl Anchor {
     }
 }
 
-/// From the centre of mass of a body to the point from which its anchors count, in the frame of the body and in metres.
+/// The vector in metres from a body's centre of mass to its datum, in the frame of the body.
 pub fn datum(world: &World, body: Entity) -> DVec2 {
     world.get::<Origin>(body).map_or(DVec2::ZERO, |origin| origin.0)
 }
 
-/// An anchor that the scene gives from the datum of a body: from the centre of mass. It is noted among the anchors of the scene.
+/// Converts an anchor from the datum of a body to its centre of mass. The anchor is noted among those of the scene.
 pub fn from_center(world: &mut World, body: Entity, path: String, given: DVec2) -> DVec2 {
     let at = given + datum(world, body);
     world.get_resource_or_init::<Anchors>().0.push(Anchor { path, body, at });

@@ -293,7 +293,7 @@ impl Bodies {
         flights.fastest = flights.fastest.max(next * dt);
     }
 
-    /// Before a drift of `dt` seconds: one more tick for all flying bodies, if `dt` is the tick that they assume.
+    /// Adds a tick to all flying bodies before a drift of `dt` seconds, if they assume this tick.
     pub(super) fn fly(&mut self, dt: f64) {
         if !self.flights.some() {
             return;

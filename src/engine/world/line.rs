@@ -154,8 +154,8 @@ impl PackedLine {
         self.is_block
     }
 
-    /// Whether the round ends of a piece are parts of the surface: first of the left point, then of the right one. They
-    /// are not if the line bends towards its open side.
+    /// Whether the round ends of a piece are parts of the surface, at the left and at the right point. They are not if the line
+    /// bends towards its open side.
     pub(crate) fn round_ends(&self, wall: usize) -> [bool; 2] {
         let piece = wall - self.first as usize;
         [piece + 1, piece].map(|index| self.joints[index].is_none_or(|joint| joint.tangent < 0.0))

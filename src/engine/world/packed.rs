@@ -40,8 +40,8 @@ pub(crate) enum Moved {
 /// [`Wrong::Torn`](crate::tick::Wrong::Torn). A model that does so while it acts may panic.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
-    /// Set by a plugin that changes an input of forces other than components of bodies, such as a setting of its force.
-    /// Forces are then evaluated again before the next tick.
+    /// A plugin sets this if it changes an input of forces that is no component, such as a setting. Forces are then evaluated
+    /// again before the next tick.
     pub touched: bool,
     /// Instructions for work on many bodies at once. Default: the best there are.
     #[serde(skip)]

@@ -1,8 +1,8 @@
 //! Convergence test of an iteration at the last bits.
 //!
-//! Symmetric and implicit maps have their properties only if their equations are solved to rounding. A remainder breaks
-//! the symmetry in time. An iteration has converged if no number moves by more than two roundings. It has also
-//! converged if it is within `NEARLY` and moves no less than before, because then rounding moves it.
+//! Symmetric and implicit maps have their properties only if their equations are solved to rounding. A remainder breaks the
+//! symmetry in time. An iteration has converged if every number moves by at most two roundings. It has also converged if it is
+//! within `NEARLY` and moves no less than before, because then rounding moves it.
 
 /// A movement that is two roundings.
 const ROUNDING: f64 = 2.0 * f64::EPSILON;

@@ -9,10 +9,9 @@
 //! it. For each `w` an iteration finds `z`, the midpoint of states of models (`fixed_point.rs`). So `z` must not depend
 //! stiffly on itself: `h/2` times that rate has to be less than 1. Its coupling to velocities may be arbitrarily stiff.
 //!
-//! Newton's method to rounding, with differences for derivatives. It takes one evaluation first, then one per
-//! coordinate for the matrix, and one per iteration, of which there are 2 to 4. States of models at least double that.
-//! The matrix is made in each step, and again if an iteration gains less than a digit. A step of length 0 changes
-//! nothing.
+//! Newton's method to rounding, with differences for derivatives. It takes one evaluation first, and one per coordinate for the
+//! matrix. Each of 2 to 4 iterations takes one more. States of models at least double that. The matrix is made in each step, and
+//! again if an iteration gains less than a digit. A step of length 0 changes nothing.
 
 use super::convergence::{Convergence, LIMIT};
 use super::elimination::Elimination;
@@ -136,8 +135,8 @@ impl ImplicitMidpoint {
     }
 }
 
-/// The disturbance of a velocity for a difference quotient. It changes half of the digits of the velocity, or a quarter
-/// of those of the coordinate if that is more. So rounding leaves three digits or more in the difference.
+/// The disturbance of a velocity for a difference quotient. It changes half of the velocity's digits, or a quarter of the
+/// coordinate's if that is more. So rounding leaves three digits or more in the difference.
 fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f64, half_change: f64) -> f64 {
     let digits = f64::EPSILON.sqrt();
     let by_velocity = digits * (middle[coordinate + coordinates].abs() + half_change.abs());

@@ -145,7 +145,7 @@ impl PlotEntry {
         self.upward().into_iter().flat_map(|(pattern, _)| sensors::chosen(pattern, outline)).collect()
     }
 
-    /// Reports channels to the right that are not there, or that belong to another body than what is drawn over them.
+    /// Reports channels of the axis to the right. They must exist, and belong to the same body as the channels drawn over them.
     fn check_x(&self, x: &str, outline: &Outline, report: &mut Diagnostics) {
         let upward = self.channels(outline);
         if let Some(other) = pairs::over_another(x, upward.iter().map(String::as_str)) {

@@ -34,8 +34,7 @@ impl Affine {
 pub(super) enum Curve {
     /// A Bezier curve by its points: two of a line, up to four.
     Bezier(Vec<DVec2>),
-    /// An arc of an ellipse: centre, two conjugate half axes, the parameter of its beginning, and the parameter's
-    /// growth, in rad.
+    /// An arc of an ellipse: centre, two conjugate half axes, the parameter at its beginning and its growth, in rad.
     Arc { center: DVec2, axes: DMat2, from: f64, turn: f64, end: DVec2 },
 }
 

@@ -1,4 +1,5 @@
-//! `fill`: many bodies of a kind in a box or polygon, none touching another, by random sequential addition (Widom 1966) with a seed.
+//! `fill`: random sequential addition (Widom 1966) with a seed. It puts many bodies of a kind in a box or polygon, and none
+//! touches another.
 
 use bevy_app::App;
 use glam::DVec2;
@@ -83,10 +84,10 @@ pub struct Placed {
 /// Many bodies of a kind in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
 /// `gas_1` and so on.
 ///
-/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. Circles about the
-/// bodies' centres of mass that hold all their atoms and shapes do not touch each other, other bodies, walls or the region's border.
-/// The same seed gives the same places on every machine. Where radii are distributed, the largest are placed first; names go by the order
-/// in which radii were drawn.
+/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. A circle about the centre
+/// of mass of each body holds all its atoms and shapes. These circles do not touch each other, other bodies, walls or the
+/// region's border. The same seed gives the same places on every machine. If radii are distributed, the largest are placed first.
+/// Names go by the order in which radii were drawn.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
 
@@ -213,8 +214,8 @@ impl FillEntry {
         report.not_negative("gap", self.gap);
     }
 
-    /// Mass, centre of mass, inertia and atoms of each, given the density of their material in kg/m2. Where radii are distributed, of the
-    /// disc that was drawn first.
+    /// Mass, centre of mass, inertia and atoms of each, given the density of their material in kg/m2. If radii are distributed,
+    /// they are those of the disc that was drawn first.
     pub fn mass_properties(&self, density: f64) -> MassProperties {
         if let Some(radii) = &self.radius {
             return disc(radii.draw(1, self.seed.0).first().copied().unwrap_or(f64::NAN), density);
@@ -315,8 +316,8 @@ pub(super) fn disc(radius: f64, density: f64) -> MassProperties {
     mass_properties::of(&[atom], None, InertiaRule::default(), density)
 }
 
-/// Square cells over the box; each knows which discs are near enough to touch a body whose centre lies in it. A few long lists, and
-/// none for each cell: memory in many small pieces stays with the program.
+/// Cells over the box. Each cell knows the discs that are near enough to touch a body whose centre lies in it. All cells share a
+/// few long lists, because memory in many small pieces stays with the program.
 struct Grid {
     low: DVec2,
     high: DVec2,
@@ -349,8 +350,8 @@ struct Bunch {
 }
 
 impl Grid {
-    /// A grid for a box, from its lower left corner to its upper right one, in which `standing` bodies of this radius at most stand in the
-    /// end: it has no more cells along a side than there are bodies, and not many more in all.
+    /// A grid for a box from its lower left to its upper right corner. At most `standing` bodies of this radius stand in it in
+    /// the end. It has at most `2 sqrt(standing)` cells along a side, so at most four cells for each body.
     fn new((low, high): (DVec2, DVec2), radius: f64, gap: f64, standing: u64) -> Self {
         let size = high - low;
         let most = ((4.0 * standing as f64).sqrt() as usize).clamp(1, CELLS);
@@ -401,14 +402,14 @@ impl Grid {
         let clear_of_wall = |&(left, right): &(DVec2, DVec2)| {
             // The open side is on the left of the way from the right point to the left point.
             let along = left - right;
-            // A wall without length is reported by its own check; here it stops nobody.
+            // A wall without length is reported by its own check, and keeps no body away here.
             along.perp().dot(at - right) >= own * along.length()
         };
         let clear_of_strip = |&(from, to, radius): &(DVec2, DVec2, f64)| {
             let along = to - from;
             let share = ((at - from).dot(along) / along.length_squared()).clamp(0.0, 1.0);
             let gap = (from + along * share).distance(at);
-            // A strip without length is reported by its own check, too; its share is no number.
+            // A strip without length is reported by its own check, too. Its share is NaN.
             gap.is_nan() || gap >= radius + own
         };
         self.walls.iter().all(clear_of_wall)

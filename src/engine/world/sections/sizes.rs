@@ -1,7 +1,7 @@
 //! Distributions of radii, drawn by inverse transform (uniform, discrete) or by the transform of Box and Muller (1958).
 //!
-//! Chance comes from a generator that is the same on every machine, and functions from `libm`, so the same seed gives the same radii to the
-//! last bit.
+//! The random generator is the same on every machine, and functions come from `libm`. So the same seed gives the same radii to
+//! the last bit.
 
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
@@ -40,7 +40,8 @@ pub enum Radii {
 const TRIES: usize = 100;
 
 impl Radii {
-    /// Reports radii that are not above zero, and limits in the wrong order or that leave too few of `count` radii.
+    /// Reports radii that are not above zero, and limits in the wrong order. It also reports limits that leave too few of `count`
+    /// radii.
     pub fn check(&self, count: usize, seed: u64, report: &mut Diagnostics) {
         match self {
             Self::Uniform(low, high) => {
@@ -128,10 +129,10 @@ mod tests {
         (mean, (numbers.iter().map(|number| (number - mean).powi(2)).sum::<f64>() / count).sqrt())
     }
 
-    /// Laws: `Uniform(a, b)` has the mean `(a + b)/2` and the deviation `(b - a)/sqrt(12)`; `LogNormal` those that it is given; `Choice` those of
-    /// its list. Tolerance: five standard errors, `5 s/sqrt(n)` of the mean and `5 s sqrt((k - 1)/(4 n))` of the deviation, where `k` is the
-    /// kurtosis: 1.8 of the uniform, 1.5 of three equal steps, and for `s/m = 0.2` 3.7 of the log-normal distribution. By chance that fails
-    /// once in a million seeds.
+    /// Laws: `Uniform(a, b)` has the mean `(a + b)/2` and the deviation `(b - a)/sqrt(12)`. `LogNormal` has those that it is
+    /// given, `Choice` those of its list. Tolerance: five standard errors, `5 s/sqrt(n)` of the mean and
+    /// `5 s sqrt((k - 1)/(4 n))` of the deviation. The kurtosis `k` is 1.8 for the uniform distribution and 1.5 for three equal
+    /// steps. For the log-normal distribution with `s/m = 0.2` it is 3.7. By chance that fails once in a million seeds.
     #[test]
     fn radii_follow_their_distribution() {
         let length = Length::new;

@@ -1,9 +1,9 @@
 //! DOP853: the explicit Runge-Kutta method of order 8 of Dormand and Prince, with an error estimate and dense output.
 //!
-//! Order 8, twelve evaluations per step, of which the first is that of the beginning. Not symplectic: an oscillation
-//! loses `2.4e-8 (omega h)^10` of its amplitude in each step. It is stable for `omega h < 5.97`, and damping alone for
-//! `h c/m < 6.39`; but its error bounds the step earlier. Sources: Prince and Dormand 1981; Hairer, Norsett, Wanner,
-//! Solving Ordinary Differential Equations I, 2nd ed. 1993, sections II.5, II.6 and II.10.
+//! Order 8, twelve evaluations per step, of which the first is that of the beginning. Not symplectic: an oscillation loses
+//! `2.4e-8 (omega h)^10` of its amplitude in each step. It is stable for `omega h < 5.97`, and damping alone for `h c/m < 6.39`;
+//! but its error bounds the step earlier. Sources: Prince and Dormand 1981. Hairer, Norsett, Wanner, Solving Ordinary
+//! Differential Equations I, 2nd ed. 1993, sections II.5, II.6 and II.10.
 //!
 //! The estimate joins those of two embedded methods of orders 5 and 3, `e5^2/sqrt(e5^2 + 0.01 e3^2)`. It falls with
 //! `h^8`, and the error with `h^9`. On the motions of `problems.rs` it is 2 to 20 times the error in the mean. The

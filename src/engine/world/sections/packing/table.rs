@@ -314,8 +314,7 @@ mod tests {
         assert_eq!(table.body(1, 1.0).position, DVec2::new(3.0, 4.0));
     }
 
-    /// Output of spreadsheets: names and numbers in quotes, separators at the ends of lines and in empty lines,
-    /// semicolons and tabs.
+    /// Spreadsheets write names and numbers in quotes, semicolons, tabs, and separators at the ends of lines and in empty lines.
     #[test]
     fn tables_of_other_programs_are_read() {
         let plain = read("x,y,radius\n1,2,0.5\n3,4,0.25\n").unwrap();
