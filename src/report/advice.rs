@@ -46,10 +46,10 @@ pub(super) struct Known {
 }
 
 impl Known {
-    /// A quarter of the tick, or less if that is still too long. The limits are a tenth of the critical tick, a
-    /// twentieth of the briefest contact, and half a radius of way. Rounded down to few digits.
+    /// A quarter of the tick, or less if that is still too long. The limits are a tenth of the critical tick, a twentieth of the
+    /// briefest contact, half a radius of way. Rounded down to few digits.
     ///
-    /// Above the critical tick nothing else counts: what flies about then is what came of that.
+    /// Above the critical tick nothing else counts, because the instability itself makes bodies fast and contacts brief.
     pub fn advised_tick(&self) -> f64 {
         let critical = self.critical.map_or(f64::INFINITY, |critical| critical / 10.0);
         let wanted = if critical < self.tick / 10.0 {

@@ -197,7 +197,7 @@ fn work(simulation: &Simulation) -> f64 {
     evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
 }
 
-/// The part of a run that can be repeated for little work, if twins take `times` the work of the run.
+/// The part of a run that twins can repeat for little work, if they take `times` its work.
 fn affordable(simulation: &Simulation, times: f64) -> f64 {
     let (work, reading) = (work(simulation), READING * simulation.bodies().atom_count() as f64);
     let whole = times * work;

@@ -1,9 +1,9 @@
 //! The model error of soft contacts. The run is repeated with contacts four times as stiff and half the tick, because
 //! these are twice as fast.
 //!
-//! The deviation of a spring from a hard surface falls with one over the stiffness for resting bodies. For impacts
-//! overlap and duration of a contact fall with one over its root (numbers of an impact follow from `v sqrt(m/k)`). The
-//! slower fall counts, because it leaves the larger error: twice the difference of the two runs.
+//! The deviation of a spring from a hard surface falls with one over the stiffness for resting bodies. For impacts the overlap
+//! `v sqrt(m/k)` and the duration of a contact fall with one over its root. The slower fall counts, because it leaves the larger
+//! error: twice the difference of the two runs.
 
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};

@@ -19,7 +19,7 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// Upper bound of the first run's ticks between two common ends with its twins, and the least number of common ends.
+/// Upper bound of the first run's ticks between two ends that its twins share. Then the least number of shared ends.
 const LONGEST_CYCLE: u64 = 10;
 const FEWEST_CYCLES: u64 = 10;
 

@@ -47,7 +47,7 @@ impl Checked {
     }
 }
 
-/// The estimate of a run: the error of its positions in m, and the time in s until which it holds.
+/// The estimate of a run: the error of positions in m, and the time in s until which it holds.
 struct Told {
     error: f64,
     until: f64,

@@ -25,9 +25,9 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: &[],
-    // Positions are known to 1.2e-15 m, so directions of links to 1.2e-14, and the pull of 5.4 N to 6.5e-14 N across.
-    // The slowest swing of the chain of 1 kg, at 3 rad/s, goes as far as `2 F/(m w^2)`. Under explicit Euler the
-    // fastest, at 114 rad/s, grows by `exp(w^2 dt t/2)`.
+    // Positions are known to 1.2e-15 m, so directions of links to 1.2e-14. So the pull of 5.4 N is known to 6.5e-14 N across. The
+    // slowest swing of the chain of 1 kg, at 3 rad/s, goes as far as `2 F/(m w^2)`. Under explicit Euler the fastest, at 114
+    // rad/s, grows by `exp(w^2 dt t/2)`.
     rounding: |tick| 2.0 * 6.5e-14 / 9.0 * libm::exp(0.5 * 114.0 * 114.0 * tick * 0.25),
 };
 

@@ -89,7 +89,7 @@ fn error(simulation: &Simulation, _: f64, _: f64) -> f64 {
     off(simulation, &Truth::read(SOFT).numbers("v_y, omega after"))
 }
 
-/// Of states in this many ticks, and of an overlap near 1 mm as a difference of positions near 0.3 m.
+/// Rounding of states in all ticks, and of an overlap near 1 mm. It is a difference of positions near 0.3 m.
 fn rounding(tick: f64) -> f64 {
     rounding_of(6.0 / 1024.0 / tick, 4.0) + f64::EPSILON * 0.3 / 1e-3
 }

@@ -77,7 +77,7 @@ pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     )
 }
 
-/// The position of the soft ladder's middle along the floor in m, at a `time` after the ladder has left the wall.
+/// The position in m of the soft ladder's middle along the floor, at a `time` after it leaves the wall.
 fn way(time: f64) -> f64 {
     let truth = Truth::read(SOFT);
     let left = truth.number("detach time");

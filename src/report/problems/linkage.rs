@@ -13,7 +13,7 @@ pub fn bar(name: &str, from: DVec2, to: DVec2, mass: f64) -> String {
     turned_bar(name, middle, libm::atan2(along.y, along.x), (mass, along.length()))
 }
 
-/// The same by its middle in m, its angle to the x axis in rad, its mass in kg and its length in m.
+/// The same by middle in m, angle to the x axis in rad, mass in kg and length in m.
 fn turned_bar(name: &str, middle: DVec2, angle: f64, (mass, length): (f64, f64)) -> String {
     format!(
         "(name: \"{name}\", at: ({:?}, {:?}), angle: {angle:?}, mass: {mass:?}, inertia: {:?}, atoms: Disc(radius: 0.005)),",

@@ -346,7 +346,7 @@ pub fn methods() -> Vec<Description> {
     simulation.resource::<Methods>().0.clone()
 }
 
-/// Worst case of rounding in `ticks` additions to a number of size `scale`, each of half a unit in the last place.
+/// Worst case of rounding in `ticks` additions to a number of size `scale`. Each is off by half a unit in the last place.
 pub fn rounding_of(ticks: f64, scale: f64) -> f64 {
     (ticks + 8.0) * f64::EPSILON * scale
 }

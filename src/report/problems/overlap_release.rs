@@ -106,9 +106,8 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     state(time + shift).into_iter().enumerate().map(of).fold(0.0, f64::max)
 }
 
-/// The kink at the parting changes the speed by up to a share `(w dt)^2/4`. The rate itself is off by `(w dt)^2/24`
-/// over a quarter of a period, and later the way by 1.5 times the share. Order 1: forces of one end of a tick, up to `w
-/// dt`.
+/// The kink at the parting changes the speed by up to a share `(w dt)^2/4`. The rate itself is off by `(w dt)^2/24` over a
+/// quarter of a period. Later the way is off by 1.5 times the share. Order 1: forces of one end of a tick, up to `w dt`.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let step = rate() * tick;
     if order >= 2 { step * step } else { step * std::f64::consts::FRAC_PI_2 }

@@ -23,7 +23,7 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: &[],
-    // An overlap is a difference of heights up to 0.55 m, and so is the one from which the error is read.
+    // An overlap is a difference of heights up to 0.55 m. So is the one from which the error is read.
     rounding: |_| 4.0 * f64::EPSILON * 0.55 * STIFFNESS / WEIGHT,
 };
 

@@ -80,8 +80,7 @@ fn error(simulation: &Simulation, time: f64, _: f64) -> f64 {
     oblique(time).map_or(fallen, |exact| fallen.max((position[1] - exact).length() / exact.length()))
 }
 
-/// As for linear drag, with the rate `2 c v/m` and the acceleration at the start of the shot, at which both are
-/// greatest.
+/// As for linear drag, with the rate `2 c v/m` and the acceleration at the start of the shot. Both are greatest there.
 fn leading_error(order: u32, tick: f64) -> f64 {
     let (rate, acceleration) = (2.0 * COEFFICIENT * 30.0, GRAVITY + COEFFICIENT * 900.0);
     let shot = |&time: &f64| {

@@ -47,7 +47,7 @@ const MASS: f64 = 5.0;
 /// In m/s2.
 const GRAVITY: f64 = 9.81;
 
-/// The block on its right corner, at half the tilt of tipping over, with a contact of a stiffness in N/m.
+/// The block on its right corner, at half the tilt of tipping over. Its contact has a stiffness in N/m.
 pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
     let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
     let angle = -0.5 * libm::atan(HALVES[0] / HALVES[1]);

@@ -17,8 +17,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // The oscillator is damped. A rounding error of the rate, of at most 10 rad/s, moves the wheel by less than it over
-    // `w` = 20/s.
+    // The oscillator is damped. The rate is at most 10 rad/s. Its rounding error moves the wheel by less than this error over
+    // `w = 20/s`.
     rounding: |tick| rounding_of(1.0 / tick, 2.0),
 };
 

@@ -150,10 +150,9 @@ fn error(simulation: &Simulation, time: f64, shift: f64) -> f64 {
     (simulation.bodies().position[0].y - RADIUS - state(time + shift).0).abs() / HEIGHT
 }
 
-/// As for the inelastic impact, each of two impacts delays the ball by up to `1 + 2 mu/(1 - mu)` ticks. Its speed is
-/// then at most `v` after the first impact. Each also changes restitution by up to `2 mu (w dt)^2/e`. The flights of up
-/// to 0.7 s after it turn that into a way of that share of `v` times 0.7 s each. Semi-implicit Euler falls by `g t
-/// dt/2` more in each of three flights.
+/// As for the inelastic impact, each of two impacts delays the ball by up to `1 + 2 mu/(1 - mu)` ticks. Its speed is then at most
+/// `v` after the first impact. Each also changes restitution by up to `2 mu (w dt)^2/e`. Each flight of up to 0.7 s after it then
+/// ends off by that share of `v` times 0.7 s. Semi-implicit Euler falls by `g t dt/2` more in each of three flights.
 fn leading_error(_: u32, tick: f64) -> f64 {
     let restitution = ((1.0 - INELASTICITY) / (1.0 + INELASTICITY)).sqrt();
     let speed = restitution * (2.0 * GRAVITY * HEIGHT).sqrt();

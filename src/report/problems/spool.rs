@@ -60,7 +60,7 @@ fn height(angle: f64) -> f64 {
     RADII[0] - (MASS * GRAVITY - PULL * libm::sin(angle)) / STIFFNESS
 }
 
-/// The acceleration in m/s2 of a spool whose centre has a height in m, under a pull at an angle in rad.
+/// The acceleration in m/s2 of a spool, by its centre's height in m and the pull's angle in rad.
 pub fn acceleration(height: f64, angle: f64) -> f64 {
     PULL * height * (height * libm::cos(angle) - RADII[1]) / (INERTIA + MASS * height * height)
 }

@@ -19,8 +19,8 @@ pub const PROBLEM: Problem = Problem {
     error,
     leading_error: None,
     constants: CONSTANTS,
-    // The free arm is as sensitive as a double pendulum; its links swing twice as fast as those of 1 m. The reference
-    // is known to 1e-13.
+    // The free arm is as sensitive as a double pendulum. Its links swing twice as fast as those of 1 m. The reference is known to
+    // 1e-13.
     rounding: |tick| rounding_of(2.0 / tick, 100.0) + 1e-13,
 };
 

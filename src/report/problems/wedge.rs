@@ -55,7 +55,7 @@ const GRAVITY: f64 = 9.81;
 /// side.
 const OFF: f64 = 0.4;
 
-/// The force of a side in N, overlap and sinking in m, and the frequency of the vertical swing in rad/s. The angle is half of the
+/// The force of a side in N, overlap and sinking in m, frequency of the vertical swing in rad/s. The angle is half of the
 /// opening, in degrees.
 pub fn statics(degrees: u32) -> [f64; 4] {
     let sin = libm::sin(f64::from(degrees).to_radians());

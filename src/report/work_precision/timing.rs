@@ -9,8 +9,8 @@ const MOST_RUNS: u32 = 9;
 /// After this many seconds there are at most [`RUNS`] runs.
 const PATIENCE: f64 = 0.05;
 
-/// Seconds of the fastest run to the end. `None` if the `left` seconds do not suffice for one of about `expected`
-/// seconds, or if no run reaches its end.
+/// Seconds of the fastest run to the end. `None` if `left` seconds do not suffice for a run of `expected` seconds, or if no run
+/// reaches its end.
 pub(crate) fn least<E>(load: impl Fn() -> Result<Simulation, E>, left: f64, expected: f64) -> Result<Option<f64>, E> {
     let mut least: Option<f64> = None;
     let (mut spent, mut runs) = (0.0, 0);

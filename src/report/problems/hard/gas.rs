@@ -1,8 +1,8 @@
 //! A gas of a thousand elastic discs for 1e5 collisions. It keeps energy and momentum, reaches the speeds of Maxwell
 //! and Boltzmann, and presses on its walls with `p = n k T Z`. SI units.
 //!
-//! `Z` is Henderson's equation of state of hard discs (Molecular Physics 30, 1975), `(1 + eta^2/8)/(1 - eta)^2` with
-//! `eta` the share of the area. Its distance from the virial series is allowed (Clisby and McCoy 2006; truth file M02).
+//! `Z` is Henderson's equation of state of hard discs (Molecular Physics 30, 1975). It is `(1 + eta^2/8)/(1 - eta)^2` with `eta`
+//! the share of the area. Its distance from the virial series is allowed (Clisby and McCoy 2006; truth file M02).
 //!
 //! The box is hard, not periodic, so its known correction is applied. It is scaled particle theory (Reiss, Frisch,
 //! Lebowitz 1959, in two dimensions). Near a wall discs are denser than inside. `N` discs are in a box of area `A` and

@@ -1,9 +1,9 @@
 //! Ticks at 0.9, 1.0 and 1.1 of the longest stable one. Below it energy stays bounded. At it swings grow in proportion
 //! to the number of ticks. Above it they explode, and the engine reports it. SI units.
 //!
-//! A mass on a spring allows ticks of `2/omega` under velocity Verlet and semi-implicit Euler and `2.83/omega` under
-//! Runge-Kutta 4. Three contacts off its centre, of 1e5, 1e5 and 4e4 N/m, clamp a body of 2 kg and 0.05 kg m2. Its
-//! largest eigenvalue of `K phi = omega^2 M phi` is 555.3 rad/s, 1.6 times `sqrt(sum k/m)`.
+//! A mass on a spring allows ticks of `2/omega` under velocity Verlet and semi-implicit Euler. Under Runge-Kutta 4 it allows
+//! `2.83/omega`. Three contacts of 1e5, 1e5 and 4e4 N/m clamp a body off its centre. The body has 2 kg and 0.05 kg m2. Its largest
+//! eigenvalue of `K phi = omega^2 M phi` is 555.3 rad/s, 1.6 times `sqrt(sum k/m)`.
 
 use crate::SimulationExt;
 use std::error::Error;
@@ -78,8 +78,8 @@ fn amplitudes(method: &str, tick: f64, ticks: u64) -> Result<(Vec<f64>, Option<S
     Ok((found, None))
 }
 
-/// The greatest kinetic energy of the clamped body in `ticks` ticks, over the initial one; and the failure that ended
-/// the run.
+/// The greatest kinetic energy of the clamped body in `ticks` ticks, over the initial one. Then the failure that ended the run,
+/// if there was one.
 fn growth(method: &str, tick: f64, ticks: u64) -> Result<(f64, Option<String>), Box<dyn Error>> {
     let mut simulation = load(&clamped(method, tick, ticks))?;
     let start = kinetic(simulation.bodies());
