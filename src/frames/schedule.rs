@@ -73,7 +73,7 @@ impl Schedule {
     }
 }
 
-/// The number of leading numbers below `count` that fit. No number fits after one that does not (binary search).
+/// The number of leading numbers below `count` that fit, by binary search. If a number does not fit, no later one does.
 fn leading(count: u64, fits: impl Fn(u64) -> bool) -> u64 {
     let (mut low, mut high) = (0, count);
     while low < high {

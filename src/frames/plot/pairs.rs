@@ -1,9 +1,9 @@
-//! Which channel each curve of a phase portrait is drawn over. Names are `owner.quantity`.
+//! The channel over which each curve of a phase portrait is drawn. Names are `owner.quantity`.
 
 use jostle_language::fits;
 
-/// The channel over which `channel` is drawn: `x` itself, or with `*` in its owner the same quantity of the channel's own owner.
-/// Nothing, if that owner does not fit.
+/// The channel over which `channel` is drawn. It is `x`, or with `*` in its owner the same quantity of the channel's own owner.
+/// `None` if that owner does not fit.
 pub fn beside(x: &str, channel: &str) -> Option<String> {
     let Some((pattern, quantity)) = x.split_once('.').filter(|(pattern, _)| pattern.contains('*')) else {
         return Some(x.to_owned());
@@ -12,8 +12,8 @@ pub fn beside(x: &str, channel: &str) -> Option<String> {
     fits(pattern, owner).then(|| format!("{owner}.{quantity}"))
 }
 
-/// A channel that would be drawn over a quantity of another owner, beside one of the same quantity that belongs to the owner of
-/// `x`: a reader would take both for curves over their own.
+/// A channel that would be drawn over a quantity of another owner. Beside it stands the same quantity of the owner of `x`. A
+/// reader would take both for curves over their own.
 pub fn over_another<'a>(x: &str, channels: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
     let (owner, _) = x.split_once('.')?;
     let own = |channel: &str| channel.split_once('.').filter(|(other, _)| *other == owner).is_some();
@@ -24,7 +24,7 @@ pub fn over_another<'a>(x: &str, channels: impl Iterator<Item = &'a str> + Clone
     channels.filter(|channel| !own(channel)).find(|channel| owned.clone().any(|other| same(channel, other)))
 }
 
-/// What is wrong with drawing `channel` over `x`, and what to write instead.
+/// The mistake of drawing `channel` over `x`, in words, and the remedy.
 pub fn told(x: &str, channel: &str) -> (String, String) {
     let (owner, quantity) = x.split_once('.').unwrap_or(("", x));
     let message = format!("`{channel}` would be drawn over `{x}`, which is of `{owner}` and not of its own body");

@@ -31,7 +31,7 @@ impl Scale {
 pub(super) fn range_of(values: impl Iterator<Item = f64>, logarithmic: bool) -> Option<(f64, f64)> {
     let shown = values.filter(|value| value.is_finite() && (!logarithmic || *value > 0.0));
     let (low, high) = shown.map(|value| (value, value)).reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))?;
-    // What differs by rounding only is one value.
+    // Values that differ by rounding only count as one.
     let size = low.abs().max(high.abs());
     let one = high - low <= 1e-9 * size;
     if logarithmic {

@@ -1,10 +1,10 @@
-//! Ticks of an axis: at 1, 2 or 5 times a power of ten, so many that they neither crowd nor leave the axis bare. An axis has at
+//! Ticks of an axis, at steps of 1, 2 or 5 times a power of ten. They neither crowd the axis nor leave it bare. An axis has at
 //! least two, as one alone tells no scale.
 
 /// An axis with fewer ticks has no scale that can be read.
 const FEWEST: usize = 2;
 
-/// With so many steps allowed, a step is at most half of any range, so that two multiples of it lie in the range.
+/// With so many steps allowed, a step is at most half of any range. So two multiples of it lie in the range.
 const ENOUGH: usize = 5;
 
 /// The positions of the ticks of an axis, and their labels.
@@ -103,8 +103,8 @@ impl Ticks {
         }
     }
 
-    /// Ticks of a logarithmic axis, at least two: at powers of ten; where there is only one, at 2 and 5 times them too; within
-    /// less than that, at equal steps.
+    /// Ticks of a logarithmic axis, at least two. They stand at powers of ten. On a short axis they also stand at 2 and 5 times
+    /// these. If fewer than two of them lie on the axis, it has equal steps.
     pub(super) fn logarithmic(low: f64, high: f64, most: usize) -> Ticks {
         let (first, last) = (libm::floor(libm::log10(low) + 1e-9) as i32, libm::ceil(libm::log10(high) - 1e-9) as i32);
         let decades = last.saturating_sub(first).max(0) as usize;
@@ -125,7 +125,7 @@ impl Ticks {
     }
 }
 
-/// What is written at so many times a power of ten.
+/// The label of the tick at `step` times a power of ten.
 fn of_a_decade(exponent: i32, step: f64) -> String {
     match (exponent, step) {
         (-2..=3, _) => (step * power(exponent)).to_string(),
@@ -214,7 +214,7 @@ mod tests {
         assert_eq!(widened(0.02, 3.0, 4, true), (0.01, 10.0));
     }
 
-    /// Ranges of many widths, from a part in 1e9 of their distance from zero to all of it, on both sides of zero.
+    /// Ranges of many widths on both sides of zero. A width is between 1e-9 of the distance from zero and all of it.
     fn ranges() -> impl Iterator<Item = (f64, f64)> {
         let widths = (-25..=25).map(|width| libm::exp10(f64::from(width) / 1.7));
         let shares = [1e-9, 3.7e-8, 1e-6, 2.3e-4, 0.013, 0.3, 0.77, 1.0, 1.9, f64::INFINITY];
@@ -225,7 +225,7 @@ mod tests {
         widths.flat_map(of_width)
     }
 
-    /// Promise: an axis has two ticks at least, all of them on it, whose labels differ and are no more than asked for.
+    /// Promise: an axis has at least two ticks, and no more than the caller asks for. All lie on it, and their labels differ.
     #[test]
     fn an_axis_has_at_least_two_ticks_whose_labels_differ() {
         for (low, high) in ranges() {
@@ -234,7 +234,7 @@ mod tests {
                     let Ticks { values, labels, .. } = Ticks::linear(low, high, most);
                     assert!(values.len() >= 2 && values.len() <= most + 1, "{low} to {high}, {most}: {labels:?}");
                     assert!(labels.windows(2).all(|pair| pair[0] != pair[1]), "{low} to {high}, {most}: {labels:?}");
-                    // A multiple of a step that is an end but for rounding stands at it.
+                    // A multiple of a step that equals an end to within rounding stands at this end.
                     let about = 1e-9 * (high - low) + 4.0 * f64::EPSILON * low.abs().max(high.abs());
                     assert!(values.iter().all(|value| (low - about..=high + about).contains(value)), "{low} {high}");
                 }
