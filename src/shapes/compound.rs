@@ -196,9 +196,8 @@ mod tests {
         assert_eq!(probes(&bent), [vec![0, 1], vec![1]]);
     }
 
-    /// Law: marks by topology after a cut equal marks by geometry. If a rounded or sharp bracket is marked again, only
-    /// its hollow changes. Parts of a compound overlap at will, so none of their corners is known to end a side in a
-    /// hollow.
+    /// Law: marks by topology after a cut equal marks by geometry. If a rounded or sharp bracket is marked again, only its hollow
+    /// changes. Parts of a compound may overlap, so none of their corners is known to end a side in a hollow.
     #[test]
     fn marks_of_a_cut_polygon_are_those_of_its_geometry() {
         let bracket =

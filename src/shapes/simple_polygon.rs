@@ -119,7 +119,7 @@ pub(crate) fn inset(corners: &[DVec2], rounding: f64) -> Result<Vec<DVec2>, Shap
     if let Some(moved) = moved_inwards(corners, &sides, rounding) {
         return Ok(moved);
     }
-    // Bisection until no number lies between the possible and the impossible.
+    // Bisection until no `f64` lies between the greatest possible and the least impossible one.
     let (mut greatest, mut too_large) = (0.0, rounding);
     loop {
         let middle = greatest + (too_large - greatest) / 2.0;

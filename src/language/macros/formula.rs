@@ -12,12 +12,12 @@ use crate::units::{self, Powers};
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Formula(String);
 
-/// Why a formula has no value.
+/// The reason for which a formula has no value.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Mistake {
-    /// What is wrong.
+    /// The mistake in words.
     pub message: String,
-    /// What helps.
+    /// The remedy, if one is known.
     pub help: Option<String>,
 }
 
@@ -33,7 +33,7 @@ impl Formula {
     /// The names that stand in it, in order, each as often as it stands there.
     ///
     /// # Errors
-    /// What is wrong with it, whatever the names mean.
+    /// Its first mistake that does not depend on the meanings of names.
     pub fn names(&self) -> Result<Vec<String>, Mistake> {
         let mut names = Vec::new();
         let value = expression::work_out(&self.0, Names::Dotted, &mut |name| {
@@ -72,7 +72,7 @@ impl Formula {
     /// Its value in SI units, and their powers. `value` gives that of a name.
     ///
     /// # Errors
-    /// What is wrong with it.
+    /// Its first mistake.
     pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<Known<'a>>) -> Result<(f64, Powers), Mistake> {
         let number = expression::work_out(&self.0, Names::Dotted, &mut |name| {
             let (value, unit) = value(name).ok_or_else(|| (format!("`{name}` has no value"), None))?;
@@ -82,7 +82,7 @@ impl Formula {
         number.map(|number| (number.si, number.powers)).map_err(|wrong| self.mistake(wrong))
     }
 
-    /// The symbol of a unit with these powers: the first of `wanted` that has them, else the product of base units.
+    /// The symbol of a unit with these powers. It is the first of `wanted` that has them, else the product of base units.
     pub fn symbol(powers: Powers, wanted: &[&'static str]) -> Cow<'static, str> {
         let has = |symbol: &&&str| units::value_in("1", symbol) == Ok((1.0, powers));
         wanted.iter().find(has).map_or_else(|| units::base_units(powers).into(), |symbol| (*symbol).into())

@@ -1,4 +1,4 @@
-//! The values among which a field lets choose, such as the shapes of a body, from the definition that the schema has of them.
+//! The possible values of a field, such as the shapes of a body, from their definition in the schema.
 
 use serde_json::Value;
 
@@ -11,12 +11,12 @@ pub struct Choice {
     pub name: String,
     /// One as it stands in a scene.
     pub example: String,
-    /// What it is.
+    /// Its meaning.
     pub meaning: String,
 }
 
 impl Language {
-    /// The values of a definition, in its order; none where there is no such definition. Their descriptions begin with an example:
+    /// The values of a definition, in its order; none if there is no such definition. Their descriptions begin with an example:
     /// `Disc(radius: 0.2)`, a colon and the meaning.
     pub fn choices(&self, definition: &str) -> Vec<Choice> {
         let one_of = self.definitions.get(definition).and_then(|about| about["oneOf"].as_array());

@@ -1,8 +1,8 @@
 //! Quantities: numbers with a physical dimension.
 //!
-//! In a scene a quantity is a bare number in SI units (angles in radians) or a text with its unit. Examples are `0.3`,
-//! `"30 cm"`, `"1 kN/m"` and `"90 deg/s"`. The dimension of the unit is checked, so that a mass is never read as a
-//! length. Powers of ten are exact: `"57 cm"` is the same `f64` as `0.57`.
+//! In a scene a quantity is a number in SI units (angles in radians) or a text with its unit. Examples are `0.3`, `"30 cm"`,
+//! `"1 kN/m"` and `"90 deg/s"`. The dimension of the unit is checked, so that a mass is never read as a length. Powers of ten are
+//! exact: `"57 cm"` is the same `f64` as `0.57`.
 //!
 //! A plugin may add its own dimension:
 //!
