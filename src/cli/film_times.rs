@@ -12,7 +12,7 @@ use crate::record::sections::FreezeEntry;
 use crate::simulation::Simulation;
 use crate::world::Name;
 
-/// More frames than anybody watches: nine hours at 30 frames per second.
+/// More frames than a viewer watches: nine hours at 30 frames per second.
 const MOST_FRAMES: f64 = 1e6;
 
 /// The last moment of a run is a product of ticks; what people write differs in the last digits.

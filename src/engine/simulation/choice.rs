@@ -29,7 +29,7 @@ const DIGITS: [f64; 3] = [5.0, 2.0, 1.0];
 const DIGITS_IN_A_CROWD: [f64; 6] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.0];
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
-/// More ticks than anybody can wait for, and still counted exactly.
+/// More ticks than a user can wait for, and still counted exactly.
 const MOST_TICKS: f64 = 1e15;
 /// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
 const TICKS_PER_ODD_FRAME: f64 = 8.0;
