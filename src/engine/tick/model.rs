@@ -90,7 +90,7 @@ pub trait Model: Any + Send + Sync {
     }
 
     /// Adds its springs in their present state: the critical tick follows from them. Contact laws provide
-    /// [`Model::responses`] instead.
+    /// [`Model::time_scales`] instead.
     fn stiffness(&self, state: &State, springs: &mut Vec<SteadySpring>);
 
     /// The inputs of its force. Default: positions and velocities.
