@@ -161,7 +161,7 @@ fn what_cannot_be_plotted_is_told() {
         ),
         ("fly.ron --channels bal.position.x", &["there is no wall or body named \"bal\"", "did you mean \"ball\"?"]),
         ("fly.ron --channels energy.total --x ball.positon.x", &["--x", "did you mean `position.x`?"]),
-        ("fly.ron --x ball.position.x", &["add --channels"]),
+        ("fly.ron --x ball.position.x", &["name the channels to plot with --channels"]),
         ("fly.ron --channels floor.position.x", &["there is no channel \"floor.position.x\""]),
         ("fly.ron -o film.gif", &["`plot` draws a .png, not `film.gif`"]),
         ("fly.ron -o folder/", &["`folder/` is a directory"]),

@@ -169,7 +169,7 @@ impl Blocks {
         self.quads.clear();
         let quad = |mover: &Mover| Quad([mover.velocity.x, mover.velocity.y, mover.spin, mover.inverse_mass]);
         self.quads.extend(movers.iter().map(quad));
-        self.quads.resize(self.schedule.indices(), quad(&movers[0]));
+        self.quads.resize(self.schedule.movers(), quad(&movers[0]));
     }
 
     /// Copies the velocities of the quads back to the movers.

@@ -40,9 +40,9 @@ impl LevelSchedule {
         self.counts[block] as usize
     }
 
-    /// How many places the blocks name: all movers, then copies of the first of them.
-    pub fn indices(&self) -> usize {
-        self.after.len() + WORLDS
+    /// How many movers the blocks name: all, then copies of the first of them.
+    pub fn movers(&self) -> usize {
+        self.after.len() + WORLDS.min(self.blocks.len())
     }
 
     /// The place of the mover that never moves, as a block names it.
