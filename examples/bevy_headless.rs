@@ -13,7 +13,7 @@ use bevy_ecs::prelude::*;
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
 use bevy_transform::components::Transform;
 use glam::DVec2;
-use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, SyncTransforms};
+use jostle::bevy::{Pace, PhysicsPlugin, Run, SyncTransforms};
 use jostle::scene::Source;
 use jostle::tick::State;
 use jostle::world::{Atom, MaterialIndex, Name, NewBody};
@@ -83,7 +83,7 @@ pub fn main() -> Result<(), Box<dyn Error>> {
     let pace = Pace::SameClock(|world| world.resource::<Time<Fixed>>().timestep());
     PhysicsPlugin::new(Source::new("game.ron", SCENE), pace).install(&mut app)?;
     app.add_plugins(SyncTransforms { units_per_meter: PIXELS });
-    app.add_systems(FixedUpdate, throw.before(Physics)).add_systems(Update, (tell, leave));
+    app.add_systems(FixedUpdate, throw).add_systems(Update, (tell, leave));
     match app.run() {
         AppExit::Success => Ok(()),
         AppExit::Error(_) => Err("the scene did not come to its end".into()),

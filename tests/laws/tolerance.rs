@@ -207,6 +207,27 @@ fn a_tolerance_below_rounding_is_not_said_to_be_reached() {
     assert!(card.verdict.contains("Do not trust its last digits"), "{}", card.verdict);
 }
 
+/// At the finest tolerances trials end at the finest steps. The stated error covers the true one, and is neither zero nor absurd: a
+/// problem of smooth motion is solved to 1e-8 of its size by any steps near rounding.
+#[test]
+fn the_finest_tolerances_state_an_error_that_it_has() {
+    for problem in [jostle::problems::spring_mass::PROBLEM, jostle::problems::kepler::PROBLEM] {
+        for tolerance in [1e-12, 3e-13, 1e-13] {
+            let mut simulation = load(&problem, &without_tick(&problem), Some(tolerance));
+            let (error, _) = run(&problem, &mut simulation);
+            let known = simulation.card().error.expect("it is known").position;
+            let stated = known.discretisation.expect("smooth motion") + known.rounding.unwrap_or(0.0);
+            assert!(stated > 0.0 && stated < 1e-8, "{} {tolerance:e}: {stated:e}", problem.name);
+            // Norms are shares of sizes of 1 mm and more.
+            assert!(
+                error <= 1e3 * stated + (problem.rounding)(problem.tick),
+                "{}: {error:e}, {stated:e}",
+                problem.name
+            );
+        }
+    }
+}
+
 #[test]
 fn a_reference_run_states_an_error_that_it_has() {
     for problem in &problems().collect::<Vec<_>>() {

@@ -248,8 +248,10 @@ fn discretisation(
         observed = observed_order(simulation, run, until, scene)?;
         order = observed.unwrap_or(order).clamp(0.5, order.max(1.0));
     }
+    let mut first_twin = None;
     for (number, &finer) in twins.iter().enumerate() {
         let Some((twin, second)) = twins::run(simulation, (finer, until), patience, scene)? else {
+            found.began = None;
             found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
             return Ok(());
         };
@@ -263,9 +265,13 @@ fn discretisation(
             found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
         }
         if until < ticks && number == 0 {
-            tell_part(simulation, &second, until, found);
+            first_twin = Some(second);
         }
         told.add(finer, order, Seen::between(run, &twin), motion);
+    }
+    // Only if no twin took too long or failed: there is an estimate of the part then.
+    if let Some(twin) = first_twin {
+        tell_part(simulation, &twin, until, found);
     }
     if stands(simulation.resource::<State>()) {
         // The differences are rounding, however small the motion.

@@ -63,8 +63,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         (Some(began), _) => format!("{why}: {began}"),
         (None, _) => why,
     };
-    // Until this time places agree with a finer run to a hundredth of the motion.
-    let until = error.horizon.map(|horizon| estimated.began.as_ref().map_or(horizon, |(_, time)| *time));
+    let until = error.horizon;
     let part = until.map_or(Part::FinePlaces, Part::PlacesAfter);
     let why = if error.horizon.is_some() { why } else { format!("{why}, by {}", of_the_way(share)) };
     let tolerance = evidence.or_tolerance();

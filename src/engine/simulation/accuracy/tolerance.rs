@@ -81,6 +81,13 @@ impl Climb {
     }
 }
 
+impl Climb {
+    /// The fineness of a trial. Two trials that are finest to rounding would not differ, so one near the finest is that.
+    fn down_to(&self, fineness: f64) -> f64 {
+        if fineness < 2.0 * self.finest { self.finest } else { fineness }
+    }
+}
+
 /// Finds the plan with hasty trials, or with patient ones if hasty ones ended without a result.
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     trials.hasty = true;
@@ -105,7 +112,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         coarse = trials.run(climb.first, "a coarser run", |_| {})?;
     }
     let mut fineness = climb.first;
-    let mut next = (fineness * climb.finer).max(climb.finest);
+    let mut next = climb.down_to(fineness * climb.finer);
     // Fineness and difference of the last pair of trials, and the predicted error.
     let mut before: Option<(f64, f64, f64)> = None;
     loop {
@@ -151,11 +158,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
         before = Some((fineness, difference, difference * share_at(next)));
         (fineness, coarse) = (next, fine);
-        next = wanted.clamp(next * least, next * climb.finer);
-        // Two trials that are finest up to rounding would not differ.
-        if next < 2.0 * climb.finest {
-            next = climb.finest;
-        }
+        next = climb.down_to(wanted.clamp(next * least, next * climb.finer));
     }
 }
 
