@@ -48,7 +48,7 @@ struct Servo {
     kd: Scalar,
     /// The greatest torque in N m, or force in N for a slide. Above zero. Default: none.
     limit: Option<DrivenForce>,
-    /// How often it computes its output, which it holds in between, in Hz. Above zero. Default: all the time.
+    /// The sampling rate in Hz. The servo holds its output between samples. Above zero. Default: all the time.
     rate: Option<Rate>,
     /// How long after each sample its output takes effect, in seconds. It may be longer than a period. Until the first sample takes
     /// effect, the servo gives nothing. Needs `rate`. Not negative. Default: 0.

@@ -58,9 +58,8 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
     if stands(state) || doubted(&Part::Places) || doubted(&Part::UnknownPlaces) {
         return trusted;
     }
-    // The error on the card holds for all of the run that was compared.
-    let compared = doubts.iter().any(|(part, _)| part.is_unknown()) || !card.by_ticks();
-    let known = card.error.and_then(|error| error.position.sum()).filter(|_| compared);
+    // The error on the card holds until the same time.
+    let known = card.error.and_then(|error| error.position.sum());
     match until {
         Some(until) if until <= 0.0 => (),
         Some(until) => {
