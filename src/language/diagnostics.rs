@@ -39,8 +39,8 @@ impl Diagnostic {
 /// Collects mistakes and notes. Paths are relative to the section or entry that is checked.
 ///
 /// ```
-/// # use jostle_language::Report;
-/// let mut report = Report::new();
+/// # use jostle_language::Diagnostics;
+/// let mut report = Diagnostics::new();
 /// report.within("[3]", |report| {
 ///     report.positive("mass", -1.5);
 /// });

@@ -10,7 +10,7 @@
 //! use bevy_app::App;
 //! use bevy_ecs::resource::Resource;
 //! use jostle::scene::units::Speed;
-//! use jostle::scene::{Outline, Report, SceneAppExt, Section, Source, load};
+//! use jostle::scene::{Outline, Diagnostics, SceneAppExt, Section, Source, load};
 //!
 //! #[derive(serde::Deserialize)]
 //! #[serde(deny_unknown_fields)]
@@ -26,7 +26,7 @@
 //!     const NAME: &'static str = "wind";
 //!     const EXAMPLE: &'static str = "wind: (speed: \"10 km/h\")";
 //!
-//!     fn check(&self, _outline: &Outline, report: &mut Report) {
+//!     fn check(&self, _outline: &Outline, report: &mut Diagnostics) {
 //!         report.between("speed", self.speed, -100.0, 100.0);
 //!     }
 //!

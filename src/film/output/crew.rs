@@ -1,4 +1,4 @@
-//! Distribution of work among threads.
+//! Dynamic scheduling: threads take jobs from a shared queue.
 
 use std::sync::Mutex;
 

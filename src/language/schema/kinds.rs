@@ -1,6 +1,6 @@
 //! The schemas of the kinds of values that sections share: quantities, pairs, words, names, whole numbers, maps.
 //!
-//! Beside the keywords of JSON schema they carry two extensions, which other programs ignore. `x-unit` is the SI unit,
+//! Besides the keywords of JSON schema they carry two extensions, which other programs ignore. `x-unit` is the SI unit,
 //! and `x-value` is the manual's name for the value.
 
 use std::borrow::Cow;

@@ -1,9 +1,9 @@
-//! The cost of a run: the least time of several runs.
+//! The cost of a run: the minimum of repeated timings.
 
 use super::timed;
 use jostle_engine::Simulation;
 
-/// Runs of which the fastest counts: what else the computer does only makes them slower. Short ones are repeated more often.
+/// The number of runs, of which the fastest counts: other work of the computer only makes them slower. Short runs are repeated more often.
 const RUNS: u32 = 3;
 const MOST_RUNS: u32 = 9;
 /// After this many seconds there are at most [`RUNS`] runs.

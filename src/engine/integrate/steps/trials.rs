@@ -1,4 +1,4 @@
-//! Runs of methods on the motions of `problems.rs`, and the requirements on them.
+//! Runs of one-step methods on the motions of `problems.rs`, for tests of their order and cost.
 
 use std::f64::consts::TAU;
 
