@@ -74,7 +74,7 @@ pub(super) fn parts(what: &str, registry: &SceneRegistry) -> Option<String> {
     let has = |quantity: &&str| quantity.split('.').any(|word| word == part);
     let names: Vec<String> =
         registry.words(QUANTITIES).into_iter().filter(has).map(|quantity| format!("`{owner}.{quantity}`")).collect();
-    // A place is what most ask for.
+    // Most users ask for a position.
     let first = names.iter().find(|name| name.contains(".position")).or(names.first())?;
     let first = first.trim_matches('`');
     let all = names.join(", ");

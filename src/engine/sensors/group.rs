@@ -14,7 +14,7 @@ pub(super) struct Group {
     within: Option<Region>,
 }
 
-/// Reports names that fit no body, and a region that is none.
+/// Reports names that fit no body, and a malformed region.
 pub(super) fn check(of: &Names, within: Option<&Region>, outline: &Outline, report: &mut Diagnostics) {
     of.require(Kind::BODY, outline, "of", report);
     if let Some(within) = within {

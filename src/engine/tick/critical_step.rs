@@ -51,7 +51,7 @@ pub struct Springs {
     list: Vec<Spring>,
     /// How many of them are contacts: they come first.
     contacts: usize,
-    /// For each spring the slots of both sides; [`NOBODY`] for sides that do not move by forces.
+    /// For each spring the slots of both sides; [`IMMOVABLE`] for sides that do not move by forces.
     slots: Vec<(u32, u32)>,
     /// For each slot the body.
     bodies: Vec<usize>,
@@ -63,7 +63,7 @@ pub struct Springs {
     sums: Vec<f64>,
 }
 
-const NOBODY: u32 = u32::MAX;
+const IMMOVABLE: u32 = u32::MAX;
 
 /// Memory of so many springs is kept for the next time.
 const KEPT: usize = 4096;
@@ -112,24 +112,24 @@ impl Springs {
         self.roots.clear();
         // If few of many bodies are held, filling the whole list each time would cost more than all the rest.
         if self.slot_of.len() == bodies.len() {
-            self.bodies.drain(..).for_each(|body| self.slot_of[body] = NOBODY);
+            self.bodies.drain(..).for_each(|body| self.slot_of[body] = IMMOVABLE);
         } else {
             self.bodies.clear();
             self.slot_of.clear();
-            self.slot_of.resize(bodies.len(), NOBODY);
+            self.slot_of.resize(bodies.len(), IMMOVABLE);
         }
         for index in 0..self.list.len() {
             let Spring { a, b, .. } = self.list[index];
-            let slots = (a.map_or(NOBODY, |(body, _)| self.slot(body, bodies)), self.slot(b.0, bodies));
+            let slots = (a.map_or(IMMOVABLE, |(body, _)| self.slot(body, bodies)), self.slot(b.0, bodies));
             self.slots.push(slots);
         }
     }
 
     fn slot(&mut self, body: usize, bodies: &Bodies) -> u32 {
         if !bodies.dynamic[body] {
-            return NOBODY;
+            return IMMOVABLE;
         }
-        if self.slot_of[body] == NOBODY {
+        if self.slot_of[body] == IMMOVABLE {
             self.slot_of[body] = self.bodies.len() as u32;
             self.bodies.push(body);
             self.roots.push((bodies.inverse_mass(body).sqrt(), bodies.inverse_inertia(body).sqrt()));
@@ -164,7 +164,7 @@ impl Springs {
             if number < self.contacts && squared > found.pair_squared {
                 (found.pair_squared, found.pair) = (squared, number);
             }
-            let times = if a != NOBODY && b != NOBODY { 2.0 } else { 1.0 };
+            let times = if a != IMMOVABLE && b != IMMOVABLE { 2.0 } else { 1.0 };
             for (slot, mobility) in [(a, of_a), (b, of_b)] {
                 if let Some(sum) = self.sums.get_mut(slot as usize) {
                     let inertia = self.roots[slot as usize].1;
