@@ -123,7 +123,7 @@ pub struct Described {
 
 /// A section, or an entry of one, that a scene may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Known {
+pub struct RegisteredName {
     /// Its name.
     pub name: &'static str,
     /// One correct use.
@@ -259,27 +259,27 @@ impl<A> Registry<A> {
 
     /// The registered sections in the order of registration. Reserved sections and lists of entries inside a section
     /// (`look.layers`) are left out.
-    pub fn sections(&self) -> Vec<Known> {
+    pub fn sections(&self) -> Vec<RegisteredName> {
         let known = |(name, section): (&'static str, &SectionReader<A>)| {
             let (origin, takes_entries) = match section.reader {
                 Reader::Section(_) => (section.origin, false),
                 Reader::Entries(..) => (shared_module(&self.entries(name)), true),
                 Reader::Reserved => return None,
             };
-            Some(Known { name, example: section.example, origin, takes_entries })
+            Some(RegisteredName { name, example: section.example, origin, takes_entries })
         };
         let outermost = self.readers().into_iter().filter(|(name, _)| !name.contains('.'));
         outermost.filter_map(known).collect()
     }
 
     /// The entries of a section in the order of registration; reserved ones are left out.
-    pub fn entries(&self, section: &str) -> Vec<Known> {
+    pub fn entries(&self, section: &str) -> Vec<RegisteredName> {
         let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
             return Vec::new();
         };
         let mut real: Vec<_> = entries.iter().filter(|(_, entry)| entry.make.is_some()).collect();
         real.sort_unstable_by_key(|(_, entry)| entry.order);
-        let known = |(&name, entry): (&&'static str, &EntryReader<A>)| Known {
+        let known = |(&name, entry): (&&'static str, &EntryReader<A>)| RegisteredName {
             name,
             example: entry.example,
             origin: entry.origin,
@@ -307,8 +307,8 @@ fn module(path: &'static str) -> &'static str {
 }
 
 /// The common part of the modules of entries. Only the crate of the first entry counts, because the others are guests.
-fn shared_module(entries: &[Known]) -> &'static str {
-    let home = |entry: &Known| entry.origin.split("::").next().unwrap_or_default();
+fn shared_module(entries: &[RegisteredName]) -> &'static str {
+    let home = |entry: &RegisteredName| entry.origin.split("::").next().unwrap_or_default();
     let Some(first) = entries.first() else { return "" };
     let same_crate = entries.iter().filter(|entry| home(entry) == home(first));
     same_crate.fold(first.origin, |shared, entry| {

@@ -182,7 +182,7 @@ fn polar(radius: f64, angle: f64) -> DVec2 {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::distance::distance;
+    use crate::hull_distance::distance;
     use crate::moments::AreaMoments;
     use crate::pose::{Bounds, Pose};
 

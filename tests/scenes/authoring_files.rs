@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use jostle::Simulation;
-use jostle::scene::{Diagnostics, Kind, Outline, SceneAppExt, SceneErrors, Section, Source};
+use jostle::scene::{Diagnostics, NameKind, Outline, SceneAppExt, SceneErrors, Section, Source};
 use jostle::simulation::Overrides;
 
 use super::authoring::end;
@@ -146,7 +146,7 @@ impl Section for PaintSection {
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (index, paint) in self.0.iter().enumerate() {
-            outline.require(Kind::BODY, &paint.of, &format!("[{index}].of"), report);
+            outline.require(NameKind::BODY, &paint.of, &format!("[{index}].of"), report);
             report.positive(&format!("[{index}].thickness"), paint.thickness);
         }
     }

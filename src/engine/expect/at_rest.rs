@@ -7,8 +7,8 @@ use serde::Deserialize;
 use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
 /// From a time on every point of the bodies is slower than a speed; looked at every tick.
 #[derive(Deserialize, JsonSchema)]
@@ -32,14 +32,14 @@ impl Entry for AtRest {
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         report.not_negative("from", self.from.si());
         report.positive("speed_below", self.speed_below.si());
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, text } in entries {
-            let keys = value.of.matching(Kind::BODY, outline).into_iter().map(|body| body as u64).collect();
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, text } in entries {
+            let keys = value.of.matching(NameKind::BODY, outline).into_iter().map(|body| body as u64).collect();
             let (from, below) = (value.from.si(), value.speed_below.si());
             Expectations::add(app, text, Watching { keys, from, below, fastest: None });
         }
@@ -58,7 +58,7 @@ impl Watch for Watching {
         Memory::of(&self.fastest)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.fastest = recall(bytes)?;
         Ok(())
     }

@@ -9,7 +9,7 @@ use super::ballistics::Air;
 use super::{Targets, check_targets};
 use crate::scene::units::{Damping, QuadraticDamping};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -45,8 +45,8 @@ impl Entry for Drag {
         check_targets(self.of.as_ref(), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(DragForce {
                 linear: value.linear.si(),
                 quadratic: value.quadratic.si(),

@@ -6,7 +6,7 @@ use serde::Deserialize;
 
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written, units};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry, units};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -33,8 +33,8 @@ impl Entry for Torque {
         check_targets(Some(&self.of), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(ConstantTorque { of: Targets::named(Some(&value.of), outline), value: value.value.si() });
         }
     }

@@ -10,9 +10,9 @@ use serde::Deserialize;
 
 use super::ballistics::Air;
 use super::{Targets, check_targets};
-use crate::scene::units::{Damping, QuadraticDamping, Velocity};
+use crate::scene::units::{Damping, QuadraticDamping, SpeedPair};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -21,7 +21,7 @@ use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 #[serde(deny_unknown_fields)]
 struct Wind {
     /// Velocity of the air in m/s.
-    velocity: Velocity,
+    velocity: SpeedPair,
     /// Linear coefficient in N s/m. Default: 0.
     #[serde(default)]
     linear: Damping,
@@ -50,8 +50,8 @@ impl Entry for Wind {
         check_targets(self.of.as_ref(), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(Gust {
                 velocity: value.velocity.si(),
                 linear: value.linear.si(),

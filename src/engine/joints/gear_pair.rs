@@ -5,9 +5,9 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::coupling::{self, Asked, Member};
-use super::model;
+use super::joint_model;
 use crate::scene::units::Scalar;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and no force: a
 /// ratio names no place for teeth, so the bearings bear nothing of them.
@@ -32,7 +32,7 @@ impl Entry for GearPair {
     }
 
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -42,8 +42,8 @@ impl Entry for GearPair {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let couplings = entries.into_iter().map(|Written { value, .. }| Asked {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        let couplings = entries.into_iter().map(|WrittenEntry { value, .. }| Asked {
             name: value.name,
             of: value.of,
             ratio: value.ratio.si(),

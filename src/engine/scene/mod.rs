@@ -56,7 +56,7 @@ use bevy_ecs::world::World;
 pub use jostle_language::*;
 pub use registry::{SceneAppExt, SceneRegistry};
 pub(crate) use registry::{install_word, register_embedding};
-pub use section::{Entry, Section, Written};
+pub use section::{Entry, Section, WrittenEntry};
 
 /// Reads a scene and installs its sections.
 ///

@@ -60,11 +60,11 @@ pub trait Entry: DeserializeOwned + Send + Sync + 'static {
 
     /// Installs all entries of this kind at once, in the order of the file. `texts` are the entries as they were
     /// written. Called only when nothing was reported.
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App);
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App);
 }
 
 /// An entry together with its text in the scene.
-pub struct Written<T> {
+pub struct WrittenEntry<T> {
     /// The entry.
     pub value: T,
     /// Its text in the file, without comments at both ends.

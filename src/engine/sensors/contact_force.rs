@@ -8,7 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::{State, index_of};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
@@ -32,10 +32,10 @@ impl Entry for ContactForce {
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require_any(&[Kind::WALL, Kind::BODY], &self.on, "on", report);
+        outline.require_any(&[NameKind::WALL, NameKind::BODY], &self.on, "on", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         let names = entries.iter().flat_map(|entry| QUANTITIES.iter().map(|q| format!("{}.{q}", entry.value.on)));
         add_found(app.world_mut(), names);
     }

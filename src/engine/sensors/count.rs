@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::sections::Region;
@@ -42,16 +42,16 @@ impl Entry for Count {
     }
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         group::check(&self.of, self.within.as_ref(), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, within }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, within }, .. } in entries {
             let group = Group::new(&of, within, outline, world);
             world.get_resource_or_init::<Asked>().0.push((name.clone(), group));
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));

@@ -13,7 +13,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, find, missing};
-use crate::scene::{Diagnostics, Entry, Formula, Kind, Mistake, Outline, SceneAppExt, SceneError, Written};
+use crate::scene::{Diagnostics, Entry, Formula, Mistake, NameKind, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
 
@@ -62,7 +62,7 @@ impl Entry for Expression {
     }
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -81,11 +81,14 @@ impl Entry for Expression {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        let asked = entries.into_iter().zip(mentions).map(|(Written { value: Self { name, of }, .. }, mention)| {
-            Asked { name, text: of, path: format!("{}.of", mention.path) }
-        });
+        let asked =
+            entries.into_iter().zip(mentions).map(|(WrittenEntry { value: Self { name, of }, .. }, mention)| Asked {
+                name,
+                text: of,
+                path: format!("{}.of", mention.path),
+            });
         let words = outline.words(super::QUANTITIES).map(|(word, _)| word).collect();
         app.insert_resource(Expressions { list: asked.collect(), open: Vec::new(), words });
         // By then all channels are there that one may name.

@@ -13,9 +13,9 @@ use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, bodies_named};
-use crate::scene::units::{Position, Time};
+use crate::scene::units::{LengthPair, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{Clock, State, add_looker};
 
@@ -32,7 +32,7 @@ struct Flow {
     /// The bodies, `*` matches.
     of: Names,
     /// The two ends of the gate, in m.
-    gate: (Position, Position),
+    gate: (LengthPair, LengthPair),
     /// Which passages count, and with which sign. Default: `Net`.
     #[serde(default)]
     direction: Direction,
@@ -124,18 +124,18 @@ impl Entry for Flow {
     }
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         gate::check(self.gate, report);
         report.positive("window", self.window);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, gate, direction, window }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, gate, direction, window }, .. } in entries {
             if !world.contains_resource::<Asked>() {
                 world.init_resource::<Asked>();
                 world.init_resource::<Seen>();

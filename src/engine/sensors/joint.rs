@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::joints::{self, Coupling};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "force", "drift"];
@@ -38,13 +38,13 @@ impl Entry for Joint {
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::JOINT, outline, "of", report);
+        self.of.require(NameKind::JOINT, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let joints = entry.value.of.matching(Kind::JOINT, outline).into_iter();
-            let names = joints.map(|joint| &outline.names(Kind::JOINT)[joint]);
+            let joints = entry.value.of.matching(NameKind::JOINT, outline).into_iter();
+            let names = joints.map(|joint| &outline.names(NameKind::JOINT)[joint]);
             let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }

@@ -10,7 +10,7 @@ use super::{Channel, SensorAppExt, add_found, known};
 use crate::controllers::Output;
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["torque", "power"];
@@ -37,7 +37,7 @@ impl Entry for Motor {
         self.of.require(CONTROLLER, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
             let found = entry.value.of.matching(CONTROLLER, outline).into_iter();
             let names = found.map(|index| &outline.names(CONTROLLER)[index]);

@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
 use crate::contacts::DeepestOverlap;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
@@ -28,7 +28,7 @@ impl Entry for Overlap {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));
     }
 }

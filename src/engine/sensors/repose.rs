@@ -20,7 +20,7 @@ use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::units::{Length, Scalar, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Bodies;
@@ -83,7 +83,7 @@ impl Entry for Repose {
     }
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -98,9 +98,9 @@ impl Entry for Repose {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, within, slower_than, column, heights }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, within, slower_than, column, heights }, .. } in entries {
             let heap = Heap {
                 name: name.clone(),
                 group: Group::new(&of, within, outline, world),

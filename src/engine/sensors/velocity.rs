@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 
 /// The columns of the sensor.
 const COLUMNS: &[&str] = &["velocity.x", "velocity.y", "spin"];
@@ -33,12 +33,13 @@ impl Entry for Velocity {
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let names = entry.value.of.matching(Kind::BODY, outline).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
+            let names =
+                entry.value.of.matching(NameKind::BODY, outline).into_iter().map(|b| &outline.names(NameKind::BODY)[b]);
             let channels = names.flat_map(|name| COLUMNS.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }

@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
-use crate::scene::{Diagnostics, Kind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section};
 
 /// The name of the default material. It always exists, and a scene may redefine it.
 pub const DEFAULT: &str = "default";
@@ -362,7 +362,7 @@ impl Section for MaterialsSection {
     /// Declares the materials' names.
     fn declare(&self, outline: &mut Outline) {
         for (name, _) in &self.0.0 {
-            outline.declare(Kind::MATERIAL, name, &format!("[\"{name}\"]"));
+            outline.declare(NameKind::MATERIAL, name, &format!("[\"{name}\"]"));
         }
     }
 
@@ -449,7 +449,7 @@ pub fn require(name: Option<&str>, outline: &Outline, report: &mut Diagnostics) 
 
 fn require_at(name: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     if name != DEFAULT {
-        outline.require(Kind::MATERIAL, name, path, report);
+        outline.require(NameKind::MATERIAL, name, path, report);
     }
 }
 

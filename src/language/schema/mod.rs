@@ -9,7 +9,7 @@ mod choices;
 mod json;
 mod json_instance;
 mod kinds;
-mod made;
+mod macro_forms;
 mod manual;
 mod tidy;
 
@@ -100,12 +100,12 @@ impl Language {
             sections.push(Section { name: name.to_owned(), example: section.example, meaning, content });
         }
         let head = fields(&Value::from(generator.root_schema_for::<Head>()), &HEAD_EXAMPLES);
-        let made = fields(&Value::from(generator.root_schema_for::<made::Made>()), &made::EXAMPLES);
+        let made = fields(&Value::from(generator.root_schema_for::<macro_forms::Made>()), &macro_forms::EXAMPLES);
         let repeat = Section {
             name: "Repeat".to_owned(),
-            example: made::REPEAT_EXAMPLE,
+            example: macro_forms::REPEAT_EXAMPLE,
             meaning: String::new(),
-            content: Content::Value(Some(generator.subschema_for::<made::Repeat>().into())),
+            content: Content::Value(Some(generator.subschema_for::<macro_forms::Repeat>().into())),
         };
         let sections = head.into_iter().chain(sections).chain(made).collect();
         let mut language = Self { sections, repeat, definitions: generator.take_definitions(true) };

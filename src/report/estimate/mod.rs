@@ -65,7 +65,7 @@ pub enum Effort {
 
 /// The requested estimate of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct EstimateRequest {
     /// Work for the error that the finite tick makes.
     pub effort: Effort,
     /// Whether the error of finite digits is wanted: three runs more.
@@ -131,7 +131,7 @@ impl Repeated<'_> {
 }
 
 /// Makes ready to estimate the error of a run that is at its beginning: some of its states are kept.
-pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
+pub fn watch(simulation: &mut Simulation, wanted: EstimateRequest) {
     let known = simulation.contains_resource::<KnownError>();
     if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !known) {
         let moments = moments(simulation);
@@ -171,8 +171,8 @@ fn moments_of(ticks: u64, bodies: u64, cycles: [u64; 2]) -> Vec<u64> {
 ///
 /// # Errors
 /// Those of reading the scene again.
-pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -> Result<(), SceneErrors> {
-    if wanted == (Wanted { effort: Effort::None, ..Wanted::default() }) {
+pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Repeated) -> Result<(), SceneErrors> {
+    if wanted == (EstimateRequest { effort: Effort::None, ..EstimateRequest::default() }) {
         return Ok(());
     }
     let run = Trajectory::watched(simulation, None);

@@ -12,7 +12,7 @@ use super::growth::{Growth, Seen};
 use super::{CHUNKS, Repeated, moments, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, Pace};
+use jostle_engine::integrate::{Detail, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -69,7 +69,7 @@ impl Finer {
             looks: plan.detail.looks,
             swing: plan.detail.swing / f64::from(if self.ticks > 1 { self.parts } else { 1 }),
         };
-        (plan.pace == Pace::Even(1)).then_some(Plan { tick, detail, ..plan })
+        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, ..plan })
     }
 }
 

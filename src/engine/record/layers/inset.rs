@@ -7,15 +7,15 @@ use serde::Deserialize;
 
 use super::{Corner, Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
-use crate::scene::units::{Length, Position, Scalar};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Length, LengthPair, Scalar};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A square part of the world, enlarged in a corner of the picture. It may stand more than once.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Inset {
     /// The place in its middle, in m.
-    center: Position,
+    center: LengthPair,
     /// How high and wide the part is, in m. Above zero.
     height: Length,
     /// The corner of the picture: `TopLeft`, `TopRight`, `BottomLeft` or `BottomRight`. Default: `BottomRight`.
@@ -55,8 +55,8 @@ impl Entry for Inset {
         report.between("share", self.share, 0.05, 1.0);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        for Written { value: Self { center, height, corner, share }, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
+        for WrittenEntry { value: Self { center, height, corner, share }, .. } in entries {
             let (right, bottom) = match corner {
                 Place::TopLeft => (false, false),
                 Place::TopRight => (true, false),

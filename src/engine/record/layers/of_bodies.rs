@@ -7,7 +7,7 @@ use serde::de::DeserializeOwned;
 use super::{Layer, Shown, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, Written};
+use crate::scene::{Diagnostics, Entry, Outline, WrittenEntry};
 
 /// A layer that shows the bodies of its field `of`, or all that move.
 pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static {
@@ -43,7 +43,7 @@ impl<L: OfBodies> Entry for L {
         self.check_others(report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         Self::prepare(app);
         for entry in entries {
             let shown = Shown::new(entry.value.of(), outline);

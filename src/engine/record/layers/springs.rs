@@ -12,7 +12,7 @@ use super::{Mark, MarkShape, PictureHeight, add_own_layer};
 use crate::forces::spring::SpringForce;
 use crate::forces::torsion_spring::TorsionSpringForce;
 use crate::record::sections::look::LAYERS;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 /// Half the width of a coil as a share of the picture's height.
@@ -42,7 +42,7 @@ impl Entry for Springs {
         Some(generator.subschema_for::<Self>())
     }
 
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, draw);
     }
 }

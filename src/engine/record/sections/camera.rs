@@ -5,8 +5,8 @@ use bevy_ecs::resource::Resource;
 use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::Deserialize;
 
-use crate::scene::units::{Length, Position, Scalar, Time};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, Written};
+use crate::scene::units::{Length, LengthPair, Scalar, Time};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, WrittenEntry};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
@@ -49,7 +49,7 @@ impl Entry for FitCamera {
         report.between("margin", self.margin, 0.0, 0.45);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Fit(entry.value));
         }
@@ -62,7 +62,7 @@ impl Entry for FitCamera {
 #[schemars(rename = "Look")]
 pub struct LookCamera {
     /// The place in the middle of the picture, in m.
-    pub center: Position,
+    pub center: LengthPair,
     /// The height of the picture, in m. Above zero.
     pub height: Length,
 }
@@ -82,7 +82,7 @@ impl Entry for LookCamera {
         report.positive("height", self.height);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Look(entry.value));
         }
@@ -114,12 +114,12 @@ impl Entry for FollowCamera {
 
     /// Reports a body that is not there, and what gives no picture.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require(Kind::BODY, &self.of, "of", report);
+        outline.require(NameKind::BODY, &self.of, "of", report);
         report.positive("height", self.height);
         report.not_negative("smoothing", self.smoothing);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Follow(entry.value));
         }

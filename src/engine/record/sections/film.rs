@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, Kind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -67,10 +67,10 @@ impl FreezeEntry {
                 }
             }
             (None, Some((a, b))) => {
-                let kinds = [Kind::BODY, Kind::WALL];
+                let kinds = [NameKind::BODY, NameKind::WALL];
                 let found_a = outline.require_any(&kinds, a, "touch[0]", report);
                 let found_b = outline.require_any(&kinds, b, "touch[1]", report);
-                let wall = |name| outline.position(Kind::WALL, name).is_some();
+                let wall = |name| outline.position(NameKind::WALL, name).is_some();
                 if found_a && found_b && (a == b || wall(a) && wall(b)) {
                     let message = format!("`{a}` and `{b}` never touch");
                     report.error("touch", message).help("name two bodies, or a body and a wall");

@@ -7,9 +7,9 @@ use serde::{Deserialize, Deserializer};
 
 use crate::integrate::ClockSection;
 use crate::record::sections::{FilmSection, FitCamera, LookCamera, camera};
-use crate::scene::units::{Position, QuadraticDamping, Speed};
+use crate::scene::units::{LengthPair, QuadraticDamping, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Arity, Diagnostics, Entry, Kind, Outline, SceneAppExt, Section, Written};
+use crate::scene::{Arity, Diagnostics, Entry, NameKind, Outline, SceneAppExt, Section, WrittenEntry};
 use crate::world::material::{MaterialsSection, PairsSection};
 use crate::world::sections::{BodiesSection, FillSection, WallsSection};
 
@@ -77,7 +77,7 @@ macro_rules! camera {
                 self.0.check(outline, report);
             }
 
-            fn install(entries: Vec<Written<Self>>, _outline: &Outline, app: &mut App) {
+            fn install(entries: Vec<WrittenEntry<Self>>, _outline: &Outline, app: &mut App) {
                 log(app, format!("camera {}", entries[0].text));
             }
         }
@@ -88,7 +88,7 @@ camera!(Fit, FitCamera);
 camera!(Look, LookCamera);
 
 #[derive(Deserialize)]
-struct Gravity(Position);
+struct Gravity(LengthPair);
 
 impl Section for Gravity {
     const NAME: &'static str = "gravity";
@@ -161,12 +161,12 @@ impl Entry for Drag {
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("quadratic", self.quadratic);
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let of = entry.value.of.matching(Kind::BODY, outline);
+            let of = entry.value.of.matching(NameKind::BODY, outline);
             log(app, format!("{} of {of:?}", entry.text));
         }
     }

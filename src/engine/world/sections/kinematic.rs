@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Diagnostics;
-use crate::scene::units::{Angle, Position, Spin, Time, Velocity};
+use crate::scene::units::{Angle, LengthPair, SpeedPair, Spin, Time};
 use crate::world::kinematic::{Path, PathPoint};
 
 /// How a body moves that nothing pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
@@ -14,7 +14,7 @@ use crate::world::kinematic::{Path, PathPoint};
 #[schemars(rename = "Kinematic")]
 pub struct KinematicEntry {
     /// The velocity at the start, in m/s; without a path, for ever. Default: (0, 0).
-    pub velocity: Velocity,
+    pub velocity: SpeedPair,
     /// The spin at the start, in rad/s; without a path, for ever. Default: 0.
     pub spin: Spin,
     /// The points of its path. Default: none.
@@ -32,13 +32,13 @@ pub struct PathEntry {
     pub time: Time,
     /// The displacement from the start, in m. Default: (0, 0).
     #[serde(default)]
-    pub by: Position,
+    pub by: LengthPair,
     /// How far it is turned from its angle at the start, in rad. Default: 0.
     #[serde(default)]
     pub turn: Angle,
     /// Its velocity there, in m/s. Default: (0, 0), a stop.
     #[serde(default)]
-    pub velocity: Velocity,
+    pub velocity: SpeedPair,
     /// Its spin there, in rad/s. Default: 0.
     #[serde(default)]
     pub spin: Spin,
