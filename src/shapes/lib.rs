@@ -30,7 +30,7 @@ pub use hull::{Free, Hull, HullSide};
 pub use hull_distance::{Separation, distance, separation};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, may_be_nearer, nearest};
-pub use pose::{Bounds, Pose};
+pub use pose::{BoundingBox, Pose};
 pub use rack::Rack;
 pub use ray::ray;
 pub use rounded_corners::Rounded;

@@ -12,8 +12,6 @@ mod spread;
 use crate::SimulationExt;
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
-
 pub use memory::resident;
 pub use plain_loop::Plain;
 pub use spread::Spread;
@@ -166,7 +164,7 @@ pub fn measure(
     let per_tick = 1.0 / ticks as f64;
     let per_atom = 1e9 * per_tick / atoms.max(1) as f64;
     let card = engine.card();
-    let (near, touching) = pairs(&engine);
+    let (near, touching) = engine.resource::<State>().pairs().map_or((0, 0), |pairs| pairs.count(engine.bodies()));
     let beside = plain.map(|plain| Beside {
         ns_per_atom_tick: of(&|(_, plain)| plain * per_atom),
         ratio: of(&|(engine, plain)| engine / plain.max(1e-9)),
@@ -204,17 +202,6 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     let start = Instant::now();
     let done = work();
     (start.elapsed(), done)
-}
-
-/// How many pairs are near each other, and how many of them touch.
-fn pairs(simulation: &Simulation) -> (usize, usize) {
-    let bodies = simulation.bodies();
-    let Some(pairs) = simulation.resource::<State>().pairs() else { return (0, 0) };
-    let (place, radius) = (|atom| bodies.atom_place(atom), &bodies.atom_radius);
-    let touch = |a: usize, b: usize| DVec2::distance(place(a), place(b)) < radius[a] + radius[b];
-    let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();
-    let surfaces = pairs.surfaces.iter().filter(|pair| pair.overlap(bodies) > 0.0).count();
-    (pairs.atoms.len() + pairs.surfaces.len(), atoms + surfaces)
 }
 
 /// Shares of the time that was spent between two looks at a stopwatch.
