@@ -277,7 +277,7 @@ impl<A> Loading<'_, A> {
                 let help = "the name is reserved for a later version; remove the section";
                 self.errors.push(error.at(tree.key(id), "not available yet").with_help(help));
             }
-            Reader::Section(read) => {
+            Reader::Section(read, _) => {
                 let span = tree.span(id);
                 match read(&text[span.clone()]) {
                     Ok(section) => {

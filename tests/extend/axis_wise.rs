@@ -21,10 +21,11 @@ use jostle::simulation::{Overrides, Simulation};
 use jostle::tick::{Energies, Model, Rates, State, SteadySpring};
 use jostle::world::material::Rebound;
 use jostle::world::{Bodies, Materials};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// `contacts: AxisWise()`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AxisWise {}
 

@@ -13,10 +13,11 @@ use jostle::simulation::Overrides;
 use jostle::tick::{Dependence, Energies, Model, State, SteadySpring};
 use jostle::world::Bodies;
 use jostle::{Simulation, SimulationExt};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// `contacts: Floor(stiffness: 500)`: a spring between atoms and walls, and nothing between atoms.
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Floor {
     stiffness: f64,

@@ -126,7 +126,7 @@ fn files_in_a_circle_and_missing_files_are_told() {
 }
 
 /// A plugin's section: it knows nothing of templates, and reads plain numbers of serde.
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Paint {
     of: String,
@@ -134,7 +134,7 @@ struct Paint {
     thickness: f64,
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct PaintSection(Vec<Paint>);
 
 #[derive(Resource, Default)]

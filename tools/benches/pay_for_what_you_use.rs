@@ -14,7 +14,7 @@ use jostle::tick::TickAppExt;
 use jostle::world::hash::state_hash;
 use jostle::{Simulation, expect, integrate, plugins, sensors, world};
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct FreeFall(AccelerationPair);
 
 impl Section for FreeFall {
@@ -26,7 +26,7 @@ impl Section for FreeFall {
     }
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct Drag {
     linear: Damping,
     of: Names,

@@ -15,7 +15,7 @@ use jostle::sensors::{self, Channel, Channels, SensorAppExt};
 use jostle::tick::kept::SnapshotAppExt;
 use jostle::tick::{SimTick, Stage, TickAppExt};
 use jostle::world::{Body, Force, Name, Position};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Registers what scenes may name: `Simulation::load_with(&source, &Overrides::default(), home_spring::plugin)`.
@@ -58,10 +58,6 @@ impl Entry for HomeSpring {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "HomeSpring";
     const EXAMPLE: &'static str = "HomeSpring(of: \"ball\", home: (0, 0), stiffness: 2)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);
@@ -130,10 +126,6 @@ impl Entry for HomeSpringStretch {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "HomeSpringStretch";
     const EXAMPLE: &'static str = "HomeSpringStretch(of: \"ball\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

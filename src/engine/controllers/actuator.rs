@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::driven::{self, Driven};
@@ -29,10 +29,6 @@ impl Entry for Actuator {
     const SECTION: &'static str = "controllers";
     const NAME: &'static str = "Actuator";
     const EXAMPLE: &'static str = "Actuator(of: \"piston\", force: Sine(amplitude: 3, frequency: 2))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);

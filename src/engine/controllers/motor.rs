@@ -3,7 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::driven::{self, Driven, DrivenForce, DrivenMotion, DrivenSpeed};
@@ -34,10 +34,6 @@ impl Entry for Motor {
     const SECTION: &'static str = "controllers";
     const NAME: &'static str = "Motor";
     const EXAMPLE: &'static str = "Motor(name: \"drive\", of: \"hip\", speed: \"30 rpm\", limit: 10)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);

@@ -10,7 +10,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
@@ -59,10 +59,6 @@ impl Entry for Servo {
     const SECTION: &'static str = "controllers";
     const NAME: &'static str = "Servo";
     const EXAMPLE: &'static str = "Servo(of: \"hip\", target: \"40 deg\", kp: 20, kd: 5)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);

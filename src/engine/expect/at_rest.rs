@@ -1,7 +1,7 @@
 //! `AtRest(of: "*", from: 18, speed_below: 1e-6)`: from a time on, every point of the bodies is slower than a speed.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
@@ -26,10 +26,6 @@ impl Entry for AtRest {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "AtRest";
     const EXAMPLE: &'static str = "AtRest(of: \"*\", from: 18, speed_below: 1e-6)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

@@ -2,7 +2,7 @@
 //! is checked at every tenth tick and at the end.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
@@ -29,10 +29,6 @@ impl Entry for Channel {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Channel";
     const EXAMPLE: &'static str = "Channel(name: \"energy.residual\", below: 1e-6)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         sensors::check_channel(&self.name, "name", outline, report);

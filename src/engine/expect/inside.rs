@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
@@ -25,10 +25,6 @@ impl Entry for Inside {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Inside";
     const EXAMPLE: &'static str = "Inside(of: \"*\", box: ((0, 0), (6, 6)))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

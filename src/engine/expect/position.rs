@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
@@ -29,10 +29,6 @@ impl Entry for Position {
     const SECTION: &'static str = "expect";
     const NAME: &'static str = "Position";
     const EXAMPLE: &'static str = "Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require(NameKind::BODY, &self.of, "of", report);

@@ -7,7 +7,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
@@ -43,10 +43,6 @@ impl Entry for Attraction {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Attraction";
     const EXAMPLE: &'static str = "Attraction(constant: 1.0)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.not_negative("softening", self.softening);

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ballistics::Air;
@@ -31,10 +31,6 @@ impl Entry for Drag {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Drag";
     const EXAMPLE: &'static str = "Drag(linear: 0.1, of: [\"ball\"])";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("linear", self.linear);

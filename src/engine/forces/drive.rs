@@ -111,10 +111,6 @@ impl Entry for Drive {
     const NAME: &'static str = "Drive";
     const EXAMPLE: &'static str = "Drive(of: \"T\", force: (2, 0), course: Sine(frequency: \"1.5 Hz\"))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.force.is_none() && self.torque.is_none() {

@@ -6,7 +6,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ballistics::{Arc, Flight, Miss, Shot};
@@ -51,10 +51,6 @@ impl Entry for Aim {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Aim";
     const EXAMPLE: &'static str = "Aim(of: \"ball\", at: (40, 5), speed: 25, arc: High)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require(NameKind::BODY, &self.of, "of", report);

@@ -9,7 +9,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::link::{self, DAMPING, ForceLink, LinkEnd, Partner};
@@ -48,10 +48,6 @@ impl Entry for Spring {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Spring";
     const EXAMPLE: &'static str = "Spring(a: \"left\", b: \"right\", stiffness: 100, damping: 0.5)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);

@@ -7,7 +7,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
@@ -56,10 +56,6 @@ impl Entry for Thrust {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Thrust";
     const EXAMPLE: &'static str = "Thrust(of: \"T\", force: (0, 2), frame: Body, from: 1, to: 1.25)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);

@@ -1,7 +1,7 @@
 //! A constant torque on a body.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
@@ -24,10 +24,6 @@ impl Entry for Torque {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Torque";
     const EXAMPLE: &'static str = "Torque(of: \"flywheel\", value: 0.05)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);

@@ -5,7 +5,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::link::{self, DAMPING, ForceLink, LinkEnd, Partner};
@@ -58,10 +58,6 @@ impl Entry for TorsionSpring {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "TorsionSpring";
     const EXAMPLE: &'static str = "TorsionSpring(a: \"arm\", b: World, stiffness: 2, damping: 0.1)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);

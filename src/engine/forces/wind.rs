@@ -5,7 +5,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ballistics::Air;
@@ -36,10 +36,6 @@ impl Entry for Wind {
     const SECTION: &'static str = "forces";
     const NAME: &'static str = "Wind";
     const EXAMPLE: &'static str = "Wind(velocity: (3, 0), linear: 0.1)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("linear", self.linear);

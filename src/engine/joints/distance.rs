@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ends::EndPair;
@@ -50,10 +50,6 @@ impl Entry for Distance {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Distance";
     const EXAMPLE: &'static str = "Distance(a: \"bar\", anchor_a: (0.5, 0), b: \"bob\", length: 0.5)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

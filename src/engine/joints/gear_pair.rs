@@ -1,7 +1,7 @@
 //! A gear pair: the rate of the second hinge is `ratio` times that of the first.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::coupling::{self, Asked, Member};
@@ -26,10 +26,6 @@ impl Entry for GearPair {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "GearPair";
     const EXAMPLE: &'static str = "GearPair(name: \"mesh\", of: (\"hip\", \"knee\"), ratio: -2)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

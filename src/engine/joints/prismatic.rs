@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ends::EndPair;
@@ -60,10 +60,6 @@ impl Entry for Prismatic {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Prismatic";
     const EXAMPLE: &'static str = "Prismatic(name: \"piston\", a: World, b: \"box\", axis: (1, 0))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

@@ -1,7 +1,7 @@
 //! A rack: the travel of a slide is `radius` times the angle of a hinge.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::coupling::{self, Asked, Member};
@@ -27,10 +27,6 @@ impl Entry for Rack {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Rack";
     const EXAMPLE: &'static str = "Rack(name: \"mesh\", of: (\"pinion\", \"slide\"), radius: 0.1)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ends::EndPair;
@@ -59,10 +59,6 @@ impl Entry for Revolute {
     const NAME: &'static str = "Revolute";
     const EXAMPLE: &'static str =
         "Revolute(name: \"hip\", a: World, anchor_a: (0, 2), b: \"bar\", anchor_b: (-0.5, 0))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

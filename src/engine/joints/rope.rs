@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ends::EndPair;
@@ -48,10 +48,6 @@ impl Entry for Rope {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Rope";
     const EXAMPLE: &'static str = "Rope(a: \"bar\", b: \"bob\", length: 2)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

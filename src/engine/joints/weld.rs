@@ -4,7 +4,7 @@
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ends::EndPair;
@@ -50,10 +50,6 @@ impl Entry for Weld {
     const SECTION: &'static str = "joints";
     const NAME: &'static str = "Weld";
     const EXAMPLE: &'static str = "Weld(a: \"box\", b: \"bar\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         joint_model::declare(self.name.as_deref(), outline);

@@ -12,7 +12,7 @@
 //! use jostle::scene::units::Speed;
 //! use jostle::scene::{Outline, Diagnostics, SceneAppExt, Section, Source, load};
 //!
-//! #[derive(serde::Deserialize)]
+//! #[derive(serde::Deserialize, schemars::JsonSchema)]
 //! #[serde(deny_unknown_fields)]
 //! struct WindSection {
 //!     /// From the left, in m/s.

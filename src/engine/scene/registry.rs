@@ -120,7 +120,11 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
-        let of = Described { example: S::EXAMPLE, schema: S::schema, path: std::any::type_name::<S>() };
+        let of = Described {
+            example: S::EXAMPLE,
+            schema: |generator| generator.subschema_for::<S>(),
+            path: std::any::type_name::<S>(),
+        };
         registry(self).add_section(S::NAME, |text| Ok(Box::new(Whole(explain::read::<S>(text)?))), of);
         self
     }
@@ -136,7 +140,11 @@ impl SceneAppExt for App {
     }
 
     fn register_entry<E: Entry>(&mut self) -> &mut Self {
-        let of = Described { example: E::EXAMPLE, schema: E::schema, path: std::any::type_name::<E>() };
+        let of = Described {
+            example: E::EXAMPLE,
+            schema: |generator| generator.subschema_for::<E>(),
+            path: std::any::type_name::<E>(),
+        };
         registry(self).add_entry(E::SECTION, E::NAME, || Box::new(Entries::<E>(Vec::new())), of);
         self
     }

@@ -4,7 +4,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, known};
@@ -28,10 +28,6 @@ impl Entry for Acceleration {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Acceleration";
     const EXAMPLE: &'static str = "Acceleration(of: \"ball\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

@@ -6,7 +6,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
@@ -41,10 +41,6 @@ impl Entry for Clearance {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Clearance";
     const EXAMPLE: &'static str = "Clearance(name: \"gap\", a: \"ball\", b: \"floor\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

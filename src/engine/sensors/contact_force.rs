@@ -4,7 +4,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
@@ -26,10 +26,6 @@ impl Entry for ContactForce {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "ContactForce";
     const EXAMPLE: &'static str = "ContactForce(on: \"floor\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         outline.require_any(&[NameKind::WALL, NameKind::BODY], &self.on, "on", report);

@@ -5,7 +5,7 @@ use std::collections::BTreeSet;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
@@ -56,10 +56,6 @@ impl Entry for Contacts {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Contacts";
     const EXAMPLE: &'static str = "Contacts(of: \"ball\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         owners(&self.of, "of", outline, report);

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
@@ -36,10 +36,6 @@ impl Entry for Count {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Count";
     const EXAMPLE: &'static str = "Count(name: \"bin\", of: \"grain_*\", within: ((0, 0), (1, 1)))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

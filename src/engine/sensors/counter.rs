@@ -5,7 +5,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
@@ -66,10 +66,6 @@ impl Entry for Counter {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Counter";
     const EXAMPLE: &'static str = "Counter(name: \"hits\", of: \"ball\", touching: \"pin_*\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -3,7 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
@@ -34,10 +34,6 @@ impl Entry for Energy {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Energy";
     const EXAMPLE: &'static str = "Energy()";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         let models = app.world().resource::<State>().models();

@@ -9,7 +9,7 @@ use std::sync::Mutex;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, find, missing};
@@ -56,10 +56,6 @@ impl Entry for Expression {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Expression";
     const EXAMPLE: &'static str = "Expression(name: \"gap\", of: \"a.position.x - b.position.x\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -8,7 +8,7 @@ use std::collections::VecDeque;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate};
@@ -118,10 +118,6 @@ impl Entry for Flow {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Flow";
     const EXAMPLE: &'static str = "Flow(name: \"out\", of: \"grain_*\", gate: ((0.1, 0), (-0.1, 0)), window: 0.5)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -3,7 +3,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, known};
@@ -65,10 +65,6 @@ impl Entry for Force {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Force";
     const EXAMPLE: &'static str = "Force(of: \"ball\", part: Joint)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

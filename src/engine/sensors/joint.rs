@@ -5,7 +5,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, known};
@@ -32,10 +32,6 @@ impl Entry for Joint {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Joint";
     const EXAMPLE: &'static str = "Joint(of: \"hip\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::JOINT, outline, "of", report);

@@ -5,7 +5,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
@@ -49,10 +49,6 @@ impl Entry for Mean {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Mean";
     const EXAMPLE: &'static str = "Mean(name: \"bed\", of: \"grain_*\", quantity: \"speed\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -3,7 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, known};
@@ -28,10 +28,6 @@ impl Entry for Motor {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Motor";
     const EXAMPLE: &'static str = "Motor(of: \"drive\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(CONTROLLER, outline, "of", report);

@@ -3,7 +3,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
@@ -23,10 +23,6 @@ impl Entry for Overlap {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Overlap";
     const EXAMPLE: &'static str = "Overlap()";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));

@@ -6,7 +6,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, check_channel, require};
@@ -55,10 +55,6 @@ impl Entry for Period {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Period";
     const EXAMPLE: &'static str = "Period(name: \"swing\", of: \"ball.position.x\", crossing: 0)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
@@ -23,10 +23,6 @@ impl Entry for Pose {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Pose";
     const EXAMPLE: &'static str = "Pose(of: \"ball\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

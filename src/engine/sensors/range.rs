@@ -9,7 +9,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named};
@@ -59,10 +59,6 @@ impl Entry for Range {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Range";
     const EXAMPLE: &'static str = "Range(name: \"eye\", of: \"car\", at: (0.2, 0), angle: \"-10 deg\", reach: 5)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -13,7 +13,7 @@ use std::collections::BTreeMap;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
@@ -77,10 +77,6 @@ impl Entry for Repose {
     const NAME: &'static str = "Repose";
     const EXAMPLE: &'static str =
         "Repose(name: \"heap\", of: \"grain_*\", within: ((-0.3, 0), (0.3, 0.3)), slower_than: 0.05)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         outline.declare(NameKind::SENSOR, &self.name, "name");

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
@@ -27,10 +27,6 @@ impl Entry for Velocity {
     const SECTION: &'static str = "sensors";
     const NAME: &'static str = "Velocity";
     const EXAMPLE: &'static str = "Velocity(of: \"ball\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(NameKind::BODY, outline, "of", report);

@@ -355,10 +355,6 @@ impl Section for MaterialsSection {
     const NAME: &'static str = "materials";
     const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the materials' names.
     fn declare(&self, outline: &mut Outline) {
         for (name, _) in &self.0.0 {
@@ -403,10 +399,6 @@ pub struct PairsSection(pub Vec<PairEntry>);
 impl Section for PairsSection {
     const NAME: &'static str = "pairs";
     const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports unknown materials, duplicate or empty pairs, and numbers out of range.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

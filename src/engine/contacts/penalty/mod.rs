@@ -37,7 +37,7 @@ mod switching;
 mod watched;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use apply::PenaltyContacts;
@@ -174,10 +174,6 @@ impl Entry for Penalty {
     const SECTION: &'static str = "contacts";
     const NAME: &'static str = "Penalty";
     const EXAMPLE: &'static str = "Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         if let TangentialLaw::Spring { ratio } = self.tangential {

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Corner, Mark, MarkShape, add_own_layer};
@@ -44,10 +44,6 @@ impl Entry for Inset {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Inset";
     const EXAMPLE: &'static str = "Inset(center: (0, 0.5), height: 0.2, corner: TopRight, share: 0.4)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.finite_pair("center", self.center.si());

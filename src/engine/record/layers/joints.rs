@@ -3,7 +3,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, PictureHeight, add_own_layer};
@@ -26,10 +26,6 @@ impl Entry for Joints {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Joints";
     const EXAMPLE: &'static str = "Joints";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, draw);

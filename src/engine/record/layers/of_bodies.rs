@@ -1,7 +1,7 @@
 //! The common part of layers of bodies: an entry of `look.layers` with the field `of`.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::{Layer, Shown, add_own_layer};
@@ -33,10 +33,6 @@ impl<L: OfBodies> Entry for L {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = <L as OfBodies>::NAME;
     const EXAMPLE: &'static str = <L as OfBodies>::EXAMPLE;
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         Shown::check(self.of(), outline, report);

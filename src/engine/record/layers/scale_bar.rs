@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, add_own_layer};
@@ -18,10 +18,6 @@ impl Entry for ScaleBar {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "ScaleBar";
     const EXAMPLE: &'static str = "ScaleBar";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, |_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::ScaleBar)));

@@ -5,7 +5,7 @@ use std::f64::consts::TAU;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, PictureHeight, add_own_layer};
@@ -37,10 +37,6 @@ impl Entry for Springs {
     const SECTION: &'static str = LAYERS;
     const NAME: &'static str = "Springs";
     const EXAMPLE: &'static str = "Springs";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, draw);

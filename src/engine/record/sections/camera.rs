@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Length, LengthPair, Scalar, Time};
@@ -40,10 +40,6 @@ impl Entry for FitCamera {
     const NAME: &'static str = "Fit";
     const EXAMPLE: &'static str = "Fit(margin: 0.05)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Reports a margin that leaves no picture.
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.between("margin", self.margin, 0.0, 0.45);
@@ -71,10 +67,6 @@ impl Entry for LookCamera {
     const SECTION: &'static str = SECTION;
     const NAME: &'static str = "Look";
     const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports a height that is not above zero.
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
@@ -107,10 +99,6 @@ impl Entry for FollowCamera {
     const SECTION: &'static str = SECTION;
     const NAME: &'static str = "Follow";
     const EXAMPLE: &'static str = "Follow(of: \"ball\", height: 3, smoothing: \"0.3 s\")";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports a body that is not there, and what gives no picture.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

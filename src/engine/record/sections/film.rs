@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
@@ -123,10 +123,6 @@ impl FilmSection {
 impl Section for FilmSection {
     const NAME: &'static str = "film";
     const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5, freeze: [(at: 1.5, for: 2)])";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports rates, sizes and moments that give no film.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -3,7 +3,7 @@
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use jostle_frames::plot::phase_portrait;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
@@ -228,10 +228,6 @@ impl Section for PlotsSection {
     const NAME: &'static str = "plots";
     const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"]), \
                                    (histogram: (of: \"*\", quantity: \"position.x\", from: -3, to: 3))]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if self.0.len() > MOST_PLOTS {

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Angle, LengthPair, Mass, SpeedPair, Spin};
@@ -83,10 +83,6 @@ pub struct BodiesSection(pub Vec<BodyEntry>);
 impl Section for BodiesSection {
     const NAME: &'static str = "bodies";
     const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {

@@ -5,7 +5,7 @@ use bevy_app::App;
 use glam::DVec2;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Speed};
@@ -115,10 +115,6 @@ impl Section for FillSection {
     const NAME: &'static str = "fill";
     const EXAMPLE: &'static str =
         "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {

@@ -122,10 +122,6 @@ impl Section for WallsSection {
     const NAME: &'static str = "walls";
     const EXAMPLE: &'static str = "walls: [(name: \"floor\", left: (6, 0), right: (0, 0), material: \"rock\")]";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the walls' names.
     fn declare(&self, outline: &mut Outline) {
         for (index, wall) in self.0.iter().enumerate() {

@@ -6,7 +6,7 @@ mod packing_table;
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::name_series;
@@ -54,10 +54,6 @@ pub struct PackingsSection(pub Vec<PackingEntry>);
 impl Section for PackingsSection {
     const NAME: &'static str = "packings";
     const EXAMPLE: &'static str = "packings: [(name: \"grain\", file: \"packings/grains.csv\", material: \"sand\")]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Declares the bodies' names and the places they take.
     fn declare(&self, outline: &mut Outline) {
