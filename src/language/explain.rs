@@ -6,6 +6,7 @@ use ron::Error;
 use serde::de::DeserializeOwned;
 
 use super::error::SceneError;
+use super::schema::{Describe, nearest_example};
 use super::suggest;
 use super::syntax::{Form, Id, Tree};
 
@@ -53,6 +54,19 @@ pub(crate) struct Walked<'a> {
     pub(crate) tree: &'a Tree,
 }
 
+/// How serde calls several values behind a name.
+const TUPLE: &str = "tuple variant ";
+
+/// The section or entry that a text should be.
+#[derive(Clone, Copy)]
+pub(crate) struct Wanted<'a> {
+    /// The value in the tree.
+    pub(crate) node: Id,
+    /// One correct use of it.
+    pub(crate) example: &'a str,
+    pub(crate) describe: Describe,
+}
+
 /// Fields and choices inside sections that are kept for later versions of the language.
 const LATER: [&str; 2] = ["shape", "soft"];
 
@@ -76,16 +90,18 @@ impl Walked<'_> {
         }
     }
 
-    /// Turns a reader's fault into a mistake with a place. `offset` counts from the beginning of the scene; `example`
-    /// is one correct use of the section or entry.
-    pub(crate) fn explain(&self, code: &Error, offset: usize, example: &str) -> SceneError {
+    /// Turns a reader's fault into a mistake with a place. `offset` counts from the beginning of the scene.
+    pub(crate) fn explain(&self, code: &Error, offset: usize, wanted: Wanted<'_>) -> SceneError {
         let at = self.tree.innermost(offset, false);
         let behind = self.tree.innermost(offset, true);
-        let for_example = format!("for example: {example}");
+        let for_example = |id: Id| {
+            let near = nearest_example(wanted.describe, *self, wanted.node, id);
+            format!("for example: {}", near.as_deref().unwrap_or(wanted.example))
+        };
         let wrong = |id: Id, expected: &str| {
             SceneError::new(self.path(id), format!("expected {expected}, found {}", self.found(id)))
                 .at(self.tree.head_or_value(id), format!("not {}", article(expected)))
-                .with_help(for_example.clone())
+                .with_help(for_example(id))
         };
         match code {
             Error::NoSuchStructField { found, .. } | Error::NoSuchEnumVariant { found, .. }
@@ -123,7 +139,7 @@ impl Walked<'_> {
                 let message = format!("the field `{field}` is missing");
                 SceneError::new(self.path(at), message)
                     .at(self.tree.head(at), format!("`{field}: ..` is missing in here"))
-                    .with_help(for_example)
+                    .with_help(for_example(at))
             }
             Error::DuplicateStructField { field, .. } => {
                 SceneError::new(self.path(behind), format!("`{field}` stands here twice"))
@@ -133,13 +149,28 @@ impl Walked<'_> {
             Error::ExpectedDifferentStructName { found, .. } => {
                 SceneError::new(self.path(behind), format!("no name `{found}` belongs here"))
                     .at(self.tree.span(behind).start..offset, "remove this name")
-                    .with_help(for_example)
+                    .with_help(for_example(behind))
             }
             Error::InvalidValueForType { .. } if self.tree.key(behind).end == offset && offset > 0 => {
                 let key = self.tree.key(behind);
                 let message = format!("the values in here have no names, found `{}: ..`", &self.text[key.clone()]);
                 let parent = self.tree.node(behind).parent;
-                SceneError::new(self.path(parent), message).at(key, "no name here").with_help(for_example)
+                SceneError::new(self.path(parent), message).at(key, "no name here").with_help(for_example(parent))
+            }
+            Error::InvalidValueForType { expected, .. } | Error::ExpectedDifferentLength { expected, .. }
+                if expected.starts_with(TUPLE) =>
+            {
+                let (name, count) = expected.split_once(" with ").unwrap_or((expected, "other elements"));
+                let name = name.rsplit("::").next().unwrap_or(name);
+                let count = count.replace("element", "value");
+                let mut whole = behind;
+                while whole != wanted.node && self.tree.name(whole, self.text) != name {
+                    whole = self.tree.node(whole).parent;
+                }
+                let found = self.tree.children(whole).len();
+                SceneError::new(self.path(whole), format!("`{name}` takes {count}, found {found}"))
+                    .at(self.tree.head_or_value(whole), format!("not {count}"))
+                    .with_help(for_example(whole))
             }
             Error::InvalidValueForType { expected, .. } => wrong(behind, expected),
             Error::ExpectedDifferentLength { expected, .. } => {
@@ -167,7 +198,7 @@ impl Walked<'_> {
                     let name = self.found(word).replace("the word ", "");
                     return SceneError::new(self.path(word), format!("brackets are missing after {name}"))
                         .at(self.tree.span(word), "`(..)` expected after this")
-                        .with_help(for_example);
+                        .with_help(for_example(word));
                 }
                 match self.tree.name(at, self.text) {
                     "" => wrong(at, "round brackets `(..)`"),
@@ -175,21 +206,23 @@ impl Walked<'_> {
                         let start = self.tree.span(at).start;
                         SceneError::new(self.path(at), format!("no name `{name}` belongs here"))
                             .at(start..start + name.len(), "remove this name")
-                            .with_help(for_example)
+                            .with_help(for_example(at))
                     }
                 }
             }
             Error::ExpectedIdentifier if self.tree.node(at).form == Form::Round => {
                 SceneError::new(self.path(at), "expected a field name".to_owned())
                     .at(self.tree.head(at), "in here")
-                    .with_help(for_example)
+                    .with_help(for_example(at))
             }
             Error::ExpectedIdentifier | Error::SuggestRawIdentifier(_) | Error::InvalidIdentifier(_) => {
                 if self.tree.key(at).is_empty() && self.tree.node(self.tree.node(at).parent).form == Form::Round {
                     let name = self.found(at);
                     SceneError::new(self.path(at), format!("expected a field name and `:`, found {name}"))
                         .at(self.tree.head_or_value(at), "no field name")
-                        .with_help(for_example)
+                        .with_help(for_example(at))
+                } else if nearest_example(wanted.describe, *self, wanted.node, at).is_some() {
+                    wrong(at, "one of the choices")
                 } else {
                     wrong(at, "a word without quotes")
                 }
@@ -197,14 +230,14 @@ impl Walked<'_> {
             Error::ExpectedStructLikeEnd | Error::ExpectedArrayEnd | Error::ExpectedMapEnd => {
                 SceneError::new(self.path(at), "there is more in these brackets than belongs here".to_owned())
                     .at(self.tree.head_or_value(at), "too much")
-                    .with_help(for_example)
+                    .with_help(for_example(at))
             }
             Error::ExpectedComma | Error::TrailingCharacters if self.tree.node(behind).form == Form::Round => {
                 let start = self.tree.span(behind).start;
                 let name = self.tree.name(behind, self.text).len().max(1);
                 SceneError::new(self.path(behind), format!("{} takes nothing in brackets", self.name(behind)))
                     .at(start..start + name, "remove the brackets after it")
-                    .with_help(for_example)
+                    .with_help(for_example(behind))
             }
             Error::IntegerOutOfBounds | Error::ExpectedComma => wrong(at, "a whole number that is not too large"),
             Error::InvalidEscape(why) => SceneError::new(self.path(at), format!("this text has a wrong `\\`: {why}"))
@@ -216,7 +249,7 @@ impl Walked<'_> {
             }
             other => SceneError::new(self.path(at), lower_first(&other.to_string()))
                 .at(self.tree.head_or_value(at), "here")
-                .with_help(for_example),
+                .with_help(for_example(at)),
         }
     }
 }

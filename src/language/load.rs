@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::diagnostics::{Diagnostic, Diagnostics};
 use super::error::{SceneError, SceneErrors};
-use super::explain::{self, Walked};
+use super::explain::{self, Walked, Wanted};
 use super::lexer::{lex, skip_blank};
 use super::macros::{self, Tables};
 use super::outline::{Mention, NameKind, Outline};
@@ -230,7 +230,8 @@ impl<A> Loading<'_, A> {
         match explain::read(&text[span.clone()]) {
             Ok(value) => Some(value),
             Err(fault) => {
-                self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, example));
+                let wanted = Wanted { node: id, example, describe: |_| None };
+                self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, wanted));
                 None
             }
         }
@@ -287,7 +288,8 @@ impl<A> Loading<'_, A> {
                         self.lists_inside(name, id);
                     }
                     Err(fault) => {
-                        self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, known.example));
+                        let wanted = Wanted { node: id, example: known.example, describe: known.describe };
+                        self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, wanted));
                     }
                 }
             }
@@ -390,7 +392,8 @@ impl<A> Loading<'_, A> {
             }
             Err(_) if bare => self.errors.push(without_brackets()),
             Err(fault) => {
-                self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, entry.example));
+                let wanted = Wanted { node: id, example: entry.example, describe: entry.describe };
+                self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, wanted));
             }
         }
     }

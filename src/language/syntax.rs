@@ -131,7 +131,7 @@ impl Tree {
     }
 
     /// `Name(value)` with one value and no field names: paths go through it as if it were the value.
-    fn is_wrapper(&self, id: Id) -> bool {
+    pub(crate) fn is_wrapper(&self, id: Id) -> bool {
         let node = self.node(id);
         node.form == Form::Round && node.name > 0 && matches!(self.children(id), &[only] if self.key(only).is_empty())
     }

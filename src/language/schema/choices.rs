@@ -24,7 +24,7 @@ impl Language {
     }
 }
 
-fn choice(about: &Value) -> Option<Choice> {
+pub(super) fn choice(about: &Value) -> Option<Choice> {
     let name = about["required"][0].as_str().or_else(|| about["const"].as_str())?;
     let told = about["description"].as_str().unwrap_or_default();
     let told = told.split_whitespace().collect::<Vec<_>>().join(" ");

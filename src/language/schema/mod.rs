@@ -11,11 +11,13 @@ mod json_instance;
 mod kinds;
 mod macro_forms;
 mod manual;
+mod nearest_example;
 mod tidy;
 
 pub use choices::Choice;
 pub use json_instance::as_json;
 pub use manual::anchor;
+pub(crate) use nearest_example::nearest_example;
 
 use schemars::generate::{SchemaGenerator, SchemaSettings};
 use schemars::{JsonSchema, Schema};

@@ -47,8 +47,9 @@ impl Radii {
             Self::Uniform(low, high) => {
                 let good = report.positive("[0]", *low) && report.positive("[1]", *high);
                 if good && low.si() > high.si() {
-                    let message = format!("the least radius, {} m, is above the greatest, {} m", low.si(), high.si());
-                    report.error("", message).help("give the least first, such as `Uniform(0.01, 0.02)`");
+                    report
+                        .error("", upside_down(*low, *high))
+                        .help("give the least first, such as `Uniform(0.01, 0.02)`");
                 }
             }
             Self::LogNormal { mean, deviation, least, most } => {
@@ -56,6 +57,12 @@ impl Radii {
                     && report.not_negative("deviation", *deviation)
                     && report.not_negative("least", *least)
                     && report.positive_if_given("most", *most);
+                if let Some(most) = most.filter(|most| good && least.si() > most.si()) {
+                    report
+                        .error("", upside_down(*least, most))
+                        .help("let `least` be at most `most`, or leave them out");
+                    return;
+                }
                 let drawn = if good { self.draw(count, seed).len() } else { count };
                 if drawn < count {
                     let message = format!(
@@ -68,10 +75,10 @@ impl Radii {
             }
             Self::Choice(radii) => {
                 if radii.is_empty() {
-                    report.error("[0]", "there is no radius to choose").help("for example `Choice([0.01, 0.02])`");
+                    report.error("", "there is no radius to choose").help("for example `Choice([0.01, 0.02])`");
                 }
                 for (index, radius) in radii.iter().enumerate() {
-                    report.positive(&format!("[0][{index}]"), *radius);
+                    report.positive(&format!("[{index}]"), *radius);
                 }
             }
         }
@@ -101,6 +108,10 @@ impl Radii {
             }
         }
     }
+}
+
+fn upside_down(least: Length, most: Length) -> String {
+    format!("the least radius, {} m, is above the greatest, {} m", least.si(), most.si())
 }
 
 /// Numbers from 0 up to, not including, 1: the upper 53 bits.
