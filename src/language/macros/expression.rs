@@ -57,9 +57,18 @@ pub(super) enum Names {
     Dotted,
 }
 
+/// Whether units of numbers are compared.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Units {
+    /// They have to fit.
+    Compared,
+    /// They are dropped, because those of names are not known.
+    Dropped,
+}
+
 /// Works out an expression that has a finite value.
 pub(super) fn evaluate(text: &str, look_up: LookUp) -> Outcome {
-    let value = work_out(text, Names::Plain, look_up)?;
+    let value = work_out(text, Names::Plain, Units::Compared, look_up)?;
     if !value.si.is_finite() {
         return Err(wrong(0..text.len(), "this is not a finite number", Some("check for a division by zero".into())));
     }
@@ -67,8 +76,8 @@ pub(super) fn evaluate(text: &str, look_up: LookUp) -> Outcome {
 }
 
 /// Works out an expression.
-pub(super) fn work_out(text: &str, names: Names, look_up: LookUp) -> Outcome {
-    let mut reader = Reader { text, at: 0, depth: 0, names, look_up };
+pub(super) fn work_out(text: &str, names: Names, units: Units, look_up: LookUp) -> Outcome {
+    let mut reader = Reader { text, at: 0, depth: 0, names, units, look_up };
     let value = reader.comparison()?;
     reader.blank();
     if reader.at < text.len() {
@@ -109,6 +118,7 @@ struct Reader<'a> {
     at: usize,
     depth: usize,
     names: Names,
+    units: Units,
     look_up: LookUp<'a>,
 }
 
@@ -273,7 +283,7 @@ impl Reader<'_> {
         let help = || format!("to multiply, write `{} * {unit}`", &rest[..length]);
         let (si, powers) =
             units::value_in(&rest[..length], unit).map_err(|why| wrong(start..end, why, Some(help())))?;
-        Ok(Number { si, powers })
+        Ok(if self.units == Units::Dropped { Number::plain(si) } else { Number { si, powers } })
     }
 
     /// Units directly after a number: `cm`, `m/s2`, `N m`. A `/` belongs to them only without blanks around it.
@@ -431,6 +441,11 @@ mod tests {
             ("1e3 * 2", "2000"),
             ("30 % * 2", "0.6"),
             ("n >= 5", "1"),
+            ("round(atan(1) / 1 deg)", "45"),
+            ("asin(1) / 90 deg", "1"),
+            ("2 rad * 3 rad + 2 rad ^ 2", "10"),
+            ("2 * 3 rad", "6 rad"),
+            ("6 rad / 2 s", "3 s-1 rad"),
         ] {
             assert_eq!(value(text).map(Number::shown), Ok(expected.to_owned()), "{text}");
         }

@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use super::expression::{self, FormulaMistake, Names};
+use super::expression::{self, Names, Units, Wrong};
 use super::quantity::Number;
 use crate::units::{self, Powers};
 
@@ -36,9 +36,8 @@ impl Formula {
     /// Its first mistake that does not depend on the meanings of names.
     pub fn names(&self) -> Result<Vec<String>, Mistake> {
         let mut names = Vec::new();
-        let value = expression::work_out(&self.0, Names::Dotted, &mut |name| {
+        let value = expression::work_out(&self.0, Names::Dotted, Units::Dropped, &mut |name| {
             names.push(name.to_owned());
-            // Without a unit a number fits everywhere.
             Ok(Number::plain(f64::NAN))
         });
         value.map(|_| names).map_err(|wrong| self.mistake(wrong))
@@ -73,8 +72,8 @@ impl Formula {
     ///
     /// # Errors
     /// Its first mistake.
-    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<NamedValue<'a>>) -> Result<(f64, Powers), Mistake> {
-        let number = expression::work_out(&self.0, Names::Dotted, &mut |name| {
+    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<Known<'a>>) -> Result<(f64, Powers), Mistake> {
+        let number = expression::work_out(&self.0, Names::Dotted, Units::Compared, &mut |name| {
             let (value, unit) = value(name).ok_or_else(|| (format!("`{name}` has no value"), None))?;
             let (factor, powers) = units::value_in("1", unit).map_err(|why| (why, None))?;
             Ok(Number { si: value * factor, powers })
@@ -98,6 +97,15 @@ impl Formula {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn units_are_compared_where_those_of_names_are_known() {
+        let formula = Formula::new("atan(a.y / 2 m) / 1 deg");
+        assert_eq!(formula.names(), Ok(vec!["a.y".to_owned()]));
+        let (angle, powers) = formula.value(|_| Some((2.0, "m"))).expect("a number");
+        assert!((angle - 45.0).abs() < 1e-13 && powers == Powers::default(), "{angle} {powers:?}");
+        assert!(formula.value(|_| Some((2.0, "s"))).is_err());
+    }
 
     #[test]
     fn names_of_a_formula_get_their_prefix_one_by_one() {

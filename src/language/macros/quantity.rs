@@ -35,7 +35,14 @@ impl Number {
     pub(super) fn times(self, other: Self, power: i32) -> Result<Self, String> {
         let si = if power < 0 { self.si / other.si } else { self.si * other.si };
         let other = combined(other.powers, Powers::default(), |a, _| a * power)?;
-        Ok(Self { si, powers: combined(self.powers, other, |a, b| a + b)? })
+        Ok(Self { si, powers: combined(self.powers, other, |a, b| a + b)? }.without_powers_of_angles())
+    }
+
+    /// Angles are ratios of lengths. So a plain number over an angle is a plain number, as is the square of an angle.
+    fn without_powers_of_angles(self) -> Self {
+        let Powers { radian, .. } = self.powers;
+        let only_angles = self.powers == Powers { radian, ..Powers::default() };
+        if only_angles && radian != 1 { Self::plain(self.si) } else { self }
     }
 
     pub(super) fn raised(self, exponent: Self) -> Result<Self, String> {
@@ -50,7 +57,7 @@ impl Number {
         }
         let power = exponent.si as i32;
         let powers = combined(self.powers, Powers::default(), |a, _| a * power)?;
-        Ok(Self { si: libm::pow(self.si, exponent.si), powers })
+        Ok(Self { si: libm::pow(self.si, exponent.si), powers }.without_powers_of_angles())
     }
 
     pub(super) fn root(self) -> Result<Self, String> {

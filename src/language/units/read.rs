@@ -5,7 +5,8 @@ use std::marker::PhantomData;
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
-use super::{Dimension, KNOWN, Powers, Quantity, QuantityPair, unit_table};
+use super::dimension::{OfEnergy, OfTorque};
+use super::{Dimension, KNOWN, Pair, Powers, Quantity, table};
 
 /// Reads a number with a unit into SI units.
 ///
@@ -24,7 +25,7 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
     }
     let size = product(unit).map_err(|why| format!("{why} in {text:?}; expected {name} such as {example}"))?;
     if size.powers != powers {
-        let found = name_of(size.powers);
+        let found = name_as_written(unit, size.powers);
         return Err(format!("expected {name} such as {example}, got {found} `{trimmed}`"));
     }
     let value = decimal(number, size.exponent).map(|value| value * size.factor);
@@ -170,11 +171,19 @@ fn split_power(factor: &str) -> Option<(&str, i32)> {
     Some((symbol.strip_suffix('^').unwrap_or(symbol), sign * digits))
 }
 
-/// The name of a dimension, or else its base units.
+/// The names of the dimensions with these powers, such as `a torque or an energy`, or else their base units.
 pub(crate) fn name_of(powers: Powers) -> String {
-    match KNOWN.iter().find(|(_, known)| *known == powers) {
-        Some((name, _)) => (*name).to_owned(),
-        None => format!("something in `{}`:", base_units(powers)),
+    let names: Vec<&str> = KNOWN.iter().filter(|(_, known)| *known == powers).map(|(name, _)| *name).collect();
+    if names.is_empty() { format!("something in `{}`:", base_units(powers)) } else { names.join(" or ") }
+}
+
+/// The name of the dimension of a unit. Joule and newton metre have the same powers, and the symbol tells an energy from a torque.
+fn name_as_written(unit: &str, powers: Powers) -> String {
+    let has_joule = unit.split([' ', '/', '*', '·', '⋅']).filter_map(table::find).any(|(unit, _)| unit.symbol == "J");
+    match (powers == OfEnergy::POWERS, has_joule) {
+        (true, true) => OfEnergy::NAME.to_owned(),
+        (true, false) => OfTorque::NAME.to_owned(),
+        _ => name_of(powers),
     }
 }
 
@@ -290,6 +299,8 @@ mod tests {
         let length = |text: &str| Length::parse(text).map_or_else(|error| error, |length| format!("{length:?}"));
         let such = "expected a length such as `0.3` or \"30 cm\"";
         assert_eq!(length("2.5 g"), format!("{such}, got a mass `2.5 g`"));
+        assert_eq!(length("2 kJ"), format!("{such}, got an energy `2 kJ`"));
+        assert_eq!(length("2 N m"), format!("{such}, got a torque `2 N m`"));
         assert_eq!(length("2 m2 s"), format!("{such}, got something in `m2 s`: `2 m2 s`"));
         assert_eq!(length("wide"), format!("{such}, found the text \"wide\""));
         assert_eq!(length(""), format!("{such}, found the text \"\""));
