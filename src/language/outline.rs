@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::diagnostics::Diagnostics;
+use super::diagnostics::{Diagnostic, Diagnostics};
 use super::macros::Tables;
 use super::name_series::{self, Names};
 use super::suggest;
@@ -150,6 +150,12 @@ impl Outline {
         }
         self.kinds.entry(kind).or_default().add_series(prefix, good, path);
         good == count
+    }
+
+    /// Reports a mistake in a declaration. `path` is counted from the section or entry.
+    pub fn refuse(&mut self, path: &str, message: impl Into<String>) -> &mut Diagnostic {
+        let path = join(&self.scope, path);
+        self.report.error_at(path, message.into())
     }
 
     /// Whether a name may be added; if not, that is reported.

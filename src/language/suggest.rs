@@ -36,9 +36,24 @@ pub fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str>) -> Option<&
 /// names.
 pub fn among<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone, plural: &str, quote: char) -> String {
     const LISTED: usize = 24;
+    listed(name, known, plural, quote, LISTED)
+}
+
+/// The same with the list of all names, however long.
+pub fn among_all<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone, plural: &str, quote: char) -> String {
+    listed(name, known, plural, quote, usize::MAX)
+}
+
+fn listed<'a>(
+    name: &str,
+    known: impl Iterator<Item = &'a str> + Clone,
+    plural: &str,
+    quote: char,
+    most: usize,
+) -> String {
     let near = nearest(name, known.clone()).map(|near| format!("did you mean {quote}{near}{quote}? "));
-    let mut list: Vec<String> = known.clone().take(LISTED).map(|name| format!("{quote}{name}{quote}")).collect();
-    let more = known.count().saturating_sub(LISTED);
+    let mut list: Vec<String> = known.clone().take(most).map(|name| format!("{quote}{name}{quote}")).collect();
+    let more = known.count().saturating_sub(most);
     if more > 0 {
         list.push(format!("and {more} more"));
     }

@@ -34,7 +34,7 @@ impl Word {
             None => {
                 let known = outline.words(list).filter(|(_, here)| *here);
                 let names: Vec<&str> = known.map(|(name, _)| name).collect();
-                let help = suggest::among(&self.0, names.into_iter(), &suggest::plural(list), '`');
+                let help = suggest::among_all(&self.0, names.into_iter(), &suggest::plural(list), '`');
                 report.error(path, format!("there is no {list} `{}`", self.0)).help(help);
                 false
             }

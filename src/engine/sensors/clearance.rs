@@ -9,8 +9,8 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, Intangible, PackedWall};
@@ -43,7 +43,7 @@ impl Entry for Clearance {
     const EXAMPLE: &'static str = "Clearance(name: \"gap\", a: \"ball\", b: \"floor\")";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

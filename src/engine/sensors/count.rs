@@ -6,9 +6,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
-use super::{Channel, SensorAppExt, add_found};
+use super::{Channel, SensorAppExt, add_found, declare};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::sections::Region;
@@ -38,7 +38,7 @@ impl Entry for Count {
     const EXAMPLE: &'static str = "Count(name: \"bin\", of: \"grain_*\", within: ((0, 0), (1, 1)))";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
 use super::gate::{self, Gate};
-use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
+use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::units::LengthPair;
@@ -68,7 +68,7 @@ impl Entry for Counter {
     const EXAMPLE: &'static str = "Counter(name: \"hits\", of: \"ball\", touching: \"pin_*\")";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -12,8 +12,8 @@ use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, check_channel, find, missing};
-use crate::scene::{Diagnostics, Entry, Formula, Mistake, NameKind, Outline, SceneAppExt, SceneError, WrittenEntry};
+use super::{Channel, SensorAppExt, add_found, check_channel, declare, find, missing};
+use crate::scene::{Diagnostics, Entry, Formula, Mistake, Outline, SceneAppExt, SceneError, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
 
@@ -58,7 +58,7 @@ impl Entry for Expression {
     const EXAMPLE: &'static str = "Expression(name: \"gap\", of: \"a.position.x - b.position.x\")";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -12,8 +12,8 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate};
-use super::{Channel, SensorAppExt, add_found, bodies_named};
-use crate::scene::units::{LengthPair, Time};
+use super::{Channel, SensorAppExt, add_found, bodies_named, declare};
+use crate::scene::units::{Position, Time};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
@@ -120,7 +120,7 @@ impl Entry for Flow {
     const EXAMPLE: &'static str = "Flow(name: \"out\", of: \"grain_*\", gate: ((0.1, 0), (-0.1, 0)), window: 0.5)";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

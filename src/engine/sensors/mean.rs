@@ -9,9 +9,9 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
-use super::{Channel, SensorAppExt, add_found, check_quantity, find_all, require};
+use super::{Channel, SensorAppExt, add_found, check_quantity, declare, find_all, require};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Name;
 use crate::world::sections::Region;
@@ -51,7 +51,7 @@ impl Entry for Mean {
     const EXAMPLE: &'static str = "Mean(name: \"bed\", of: \"grain_*\", quantity: \"speed\")";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

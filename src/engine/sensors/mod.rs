@@ -154,6 +154,19 @@ fn add<'a>(app: &'a mut App, list: &'static str, words: &[&'static str], finder:
     app
 }
 
+/// Declares the name of a sensor whose channels bear it. A name that begins channels of the whole scene, such as `energy`, is
+/// reported: the sensor would hide behind them.
+fn declare(name: &str, outline: &mut Outline) {
+    let of_world = |(word, _): &(&str, bool)| word.split_once('.').is_some_and(|(owner, _)| owner == name);
+    let taken = outline.words(CHANNELS).find(of_world);
+    if let Some((word, _)) = taken {
+        let message = format!("the name \"{name}\" is taken: `{word}` is a channel of the whole scene");
+        outline.refuse("name", message).help("give the sensor another name");
+    } else {
+        outline.declare(Kind::SENSOR, name, "name");
+    }
+}
+
 /// Reports a channel name that cannot be right.
 pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     if outline.word(CHANNELS, name).is_some() {

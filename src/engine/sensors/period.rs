@@ -9,8 +9,8 @@ use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::{Channel, SensorAppExt, add_found, check_channel, require};
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use super::{Channel, SensorAppExt, add_found, check_channel, declare, require};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, add_looker};
 
@@ -57,7 +57,7 @@ impl Entry for Period {
     const EXAMPLE: &'static str = "Period(name: \"swing\", of: \"ball.position.x\", crossing: 0)";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -12,9 +12,9 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::{Channel, SensorAppExt, add_found, body_named};
-use crate::scene::units::{Angle, Length, LengthPair};
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use super::{Channel, SensorAppExt, add_found, body_named, declare};
+use crate::scene::units::{Angle, Length, Position};
+use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, PackedLine, anchor};
@@ -61,7 +61,7 @@ impl Entry for Range {
     const EXAMPLE: &'static str = "Range(name: \"eye\", of: \"car\", at: (0.2, 0), angle: \"-10 deg\", reach: 5)";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -17,10 +17,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
-use super::{Channel, SensorAppExt, add_found};
+use super::{Channel, SensorAppExt, add_found, declare};
 use crate::scene::units::{Length, Scalar, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Bodies;
@@ -79,7 +79,7 @@ impl Entry for Repose {
         "Repose(name: \"heap\", of: \"grain_*\", within: ((-0.3, 0), (0.3, 0.3)), slower_than: 0.05)";
 
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(NameKind::SENSOR, &self.name, "name");
+        declare(&self.name, outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
