@@ -66,6 +66,38 @@ fn names_and_words_are_explained() {
         let ended = folder.jostle(&format!("explain {name}")).code(0);
         assert!(ended.out.contains(text), "{name}: {ended:?}");
     }
+    for (name, texts) in [
+        ("hinge", &["Scenes say `Revolute` for hinge.", "`Revolute` is an entry of `joints`"][..]),
+        ("slider", &["`Prismatic` is an entry of `joints`"]),
+        ("rod", &["`Distance` is an entry of `joints`"]),
+        ("pid", &["`Servo` is an entry of `controllers`"]),
+        ("time step", &["Scenes say `tick` for time step.", "`clock.tick` is a field of the section `clock`"]),
+        ("Uniform", &["`Uniform` is a choice of `fill.radius`.\nFor example: Uniform(0.01, 0.02)\nevery radius from"]),
+        (
+            "LogNormal",
+            &["`LogNormal` is a choice of `fill.radius`", "\n  mean: length in m; needed. The mean of the radius"],
+        ),
+        ("choice", &["`Choice` is a choice of `fill.radius`"]),
+        (
+            "radius",
+            &[
+                "`fill.radius` is a field of the section `fill`",
+                "`radius` is a field of:",
+                "`joints: Rack`",
+                "; needed. ",
+            ],
+        ),
+        ("datum", &["`bodies.datum` is a field of the section `bodies`", "default: "]),
+        ("anchor", &["anchor_a: ", "anchor_b: ", "`joints: Revolute`", "default: "]),
+        ("largest share", &["how deep two bodies, or a body and a wall, were in each other at worst"]),
+        ("overlap", &["`Overlap` is an entry of `sensors`", "how deep two bodies, or a body and a wall"]),
+        ("restitution", &["materials", "joints"]),
+        ("Gear", &["`Gear` is a choice of `bodies.shape`", "\n  teeth: "]),
+    ] {
+        let ended = folder.jostle(&format!("explain {name}")).code(0);
+        texts.iter().for_each(|text| assert!(ended.out.contains(text), "{name}: {text}: {}", ended.out));
+    }
+    folder.jostle("explain hing").code(2).says("did you mean `hinge`?");
     folder.jostle("explain Darg").code(2).says("did you mean `Drag`?");
     folder.jostle("explain thread").code(0);
     folder.jostle("explain treads").code(2).says("did you mean `threads`?");

@@ -3,7 +3,9 @@
 mod channel;
 mod flag;
 mod name;
+mod parts;
 mod scene;
+mod synonyms;
 mod words;
 
 use std::path::Path;
@@ -19,8 +21,8 @@ use super::say::say;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
-    /// A scene file or example:NAME, and a channel of it if that is meant; or the name of a section, entry, method, channel or
-    /// flag; or a word on the error card
+    /// A scene file or example:NAME, and a channel of it if that is meant. Or the name of a section, entry, field, method, channel
+    /// or flag, or a common word for one. Or a word on the error card
     #[arg(value_name = "SCENE|NAME", required = true)]
     what: Vec<String>,
     #[command(flatten)]
@@ -34,6 +36,8 @@ const EXAMPLES: &str = "\
 Examples:
   jostle explain example:tetris     its systems in order, who brought them, and how the time is shared out
   jostle explain Drag               what a force, sensor, section or method is, with an example
+  jostle explain hinge              the same, by a common word for it
+  jostle explain radius             a field: everything that has it, with default and meaning
   jostle explain critical tick      what a word on the error card means
   jostle explain kinetic            what a channel is, its unit, and the sensor that gives it
   jostle explain example:bounce elastic.position.y

@@ -3,7 +3,7 @@
 use bevy_app::App;
 
 use super::words::{WORDS, Word};
-use super::{channel, flag};
+use super::{channel, flag, parts, synonyms};
 use crate::cli::Exit;
 use crate::cli::list::READER;
 use crate::cli::paths::handed_on;
@@ -29,12 +29,24 @@ pub(super) fn explain(what: &str) -> Exit {
             found = look_up(&other, &app).0;
         }
     }
+    let registry = app.world().resource::<SceneRegistry>();
+    let language = Language::of(registry);
+    let parts = language.parts();
     if found.is_empty() {
-        let registry = app.world().resource::<SceneRegistry>();
-        let told = channel::told(what, registry, &Language::of(registry));
-        found.extend(told.or_else(|| channel::parts(what, registry)));
+        found.extend(channel::told(what, registry, &language));
+    }
+    found.extend(parts::told(what, &parts));
+    if let Some(name) = synonyms::named(what) {
+        found.push(format!("Scenes say `{name}` for {what}."));
+        found.extend(look_up(name, &app).0);
+        found.extend(parts::told(name, &parts));
     }
     if found.is_empty() {
+        found.extend(channel::parts(what, registry));
+    }
+    if found.is_empty() {
+        let others = parts.iter().map(|part| part.name.clone()).chain(synonyms::words().map(str::to_owned));
+        let names: Vec<String> = names.into_iter().chain(others).collect();
         let near = nearest_name(what, names.iter().map(String::as_str));
         let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
         say(&format!(
@@ -82,13 +94,6 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
             ));
         }
     }
-    let clock = told("clock", None);
-    for line in clock.lines().filter_map(|line| line.strip_prefix("  ")) {
-        let name = line.split(':').next().unwrap_or_default();
-        if same(name) {
-            found.push(format!("`clock.{name}` is a field of the section `clock`.\n{line}"));
-        }
-    }
     if let Some((section, field)) = what.split_once('.') {
         let beginning = format!("  {field}: ");
         let fields = told(section, None);
@@ -115,7 +120,6 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
             ));
         }
     }
-    names.extend(clock.lines().filter_map(|line| line.strip_prefix("  ")?.split(':').next()));
     for Word { word, meaning } in WORDS {
         names.extend(word.split(", "));
         if word.split(", ").any(same) {
@@ -153,4 +157,21 @@ fn of_entry(section: &str, known: RegisteredName) -> String {
         handed_on(known.origin),
         known.example
     )
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn synonyms_lead_to_names() {
+        let mut app = App::empty();
+        app.add_tick();
+        crate::plugins::standard(&mut app);
+        let registry = app.world().resource::<SceneRegistry>();
+        let parts = Language::of(registry).parts();
+        for name in synonyms::names() {
+            assert!(!look_up(name, &app).0.is_empty() || !parts::told(name, &parts).is_empty(), "{name}");
+        }
+    }
 }

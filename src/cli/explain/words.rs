@@ -99,7 +99,7 @@ pub(super) const WORDS: &[Word] = &[
          its limit back onto it. That may change the angular momentum, and a shorter tick changes it less.",
     ),
     word(
-        "largest overlap",
+        "largest overlap, overlap, largest share",
         "how deep two bodies, or a body and a wall, were in each other at worst, in m and as a share of the smaller radius. Another \
          pair may have a greater share: then that stands in `largest share`. \
          Contacts are springs, so some overlap carries the load. A higher `stiffness` makes it smaller, and asks for \

@@ -1,7 +1,10 @@
 //! The scene language as a manual in Markdown.
 
+mod parts;
 mod plain;
 mod value;
+
+pub use parts::Part;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

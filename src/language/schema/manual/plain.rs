@@ -1,5 +1,7 @@
 //! One section or entry in plain words, for the terminal.
 
+use serde_json::Value;
+
 use super::{Content, Language, Manual, default_of, in_cell, is_needed, meaning_of};
 
 impl Language {
@@ -24,16 +26,22 @@ impl Language {
             }
         }
         for (name, field) in about["properties"].as_object().into_iter().flatten() {
-            let (value, unit) = manual.cell(name, field);
-            let unit = if unit.is_empty() { unit } else { format!(" in {unit}") };
-            let default = match default_of(field) {
-                Some(default) => format!("; default: {default}"),
-                None if is_needed(about, name) => "; needed".to_owned(),
-                None => String::new(),
-            };
-            let line = format!("\n  {name}: {value}{unit}{default}. {}", in_cell(meaning_of(field)));
-            told.push_str(&line.replace('`', "").replace("\\|", "|"));
+            told.push_str("\n  ");
+            told.push_str(&line_of(&manual, about, name, field));
         }
         Some(told.trim_start().to_owned())
     }
+}
+
+/// A field in a line: name, value, unit, default and meaning.
+pub(super) fn line_of(manual: &Manual<'_>, about: &Value, name: &str, field: &Value) -> String {
+    let (value, unit) = manual.cell(name, field);
+    let unit = if unit.is_empty() { unit } else { format!(" in {unit}") };
+    let default = match default_of(field) {
+        Some(default) => format!("; default: {default}"),
+        None if is_needed(about, name) => "; needed".to_owned(),
+        None => String::new(),
+    };
+    let line = format!("{name}: {value}{unit}{default}. {}", in_cell(meaning_of(field)));
+    line.replace('`', "").replace("\\|", "|")
 }

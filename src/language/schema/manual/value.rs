@@ -133,8 +133,13 @@ impl<'a> Manual<'a> {
         };
         for key in ["anyOf", "oneOf"] {
             if let Some(choices) = about[key].as_array() {
+                let named =
+                    |choice: &Value| choice["required"][0].as_str().filter(|_| key == "oneOf").map(str::to_owned);
                 let choices = choices.iter().flat_map(|choice| match words_of(choice).as_slice() {
-                    [] => vec![self.cell(path, choice)],
+                    [] => match named(choice) {
+                        Some(name) => vec![(format!("`{name}(..)`"), String::new())],
+                        None => vec![self.cell(path, choice)],
+                    },
                     words => words.iter().map(|word| (format!("`{word}`"), String::new())).collect(),
                 });
                 let cells: Vec<_> = choices.collect();
@@ -212,7 +217,7 @@ fn is_word(choice: &Value) -> bool {
     choice["const"].is_string() || choice["enum"].is_array()
 }
 
-fn words_of(choice: &Value) -> Vec<&str> {
+pub(super) fn words_of(choice: &Value) -> Vec<&str> {
     let several = choice["enum"].as_array().into_iter().flatten();
     choice["const"].as_str().into_iter().chain(several.filter_map(Value::as_str)).collect()
 }
