@@ -50,6 +50,8 @@ const SECTIONS: &str = "sections";
 const SHORT_LAYERS: &str = "layers";
 /// Lists of what may stand as a value in a body, with the types that read them.
 const CHOICES: [(&str, &str); 2] = [("shapes", "Shape"), ("atoms", "Atoms")];
+/// The lists of channels: those of the whole scene, and those behind a name.
+const CHANNEL_LISTS: [&str; 2] = ["channels", "quantities"];
 /// Who brings the sections that are there before any plugin.
 pub(super) const READER: &str = "jostle::scene";
 
@@ -111,6 +113,15 @@ impl List {
                 count(items.len(), "scene", "scenes"),
                 items.first().map_or("NAME", |item| &item.name),
                 others.join(", ")
+            )));
+        }
+        if CHANNEL_LISTS.contains(&self.what.as_str()) && !self.json && self.filter.is_none() {
+            let others = "`jostle list quantities` shows those of bodies, walls, joints, controllers and sensors, such as \
+                          `ball.position.x`. ";
+            let others = if self.what == CHANNEL_LISTS[0] { others } else { "" };
+            return exit.worse(print_line(&format!(
+                "\n{others}`jostle explain CHANNEL` tells the unit of one and the sensor that measures it, and \
+                 `jostle explain SCENE CHANNEL` its value at the start."
             )));
         }
         exit

@@ -127,6 +127,17 @@ fn channels_are_explained() {
         let ended = folder.jostle(&format!("explain {name}")).code(0);
         texts.iter().for_each(|text| assert!(ended.out.contains(text), "{name}: {text}: {}", ended.out));
     }
+    // In a scene the sensor is told as the scene writes it.
+    let sensors = "[Pose(of: \"b*\"), Mean(name: \"bed\", of: \"*\",
+        quantity: \"speed\"), Mean(name: \"other\", of: \"ball\", quantity: \"position.y\")]";
+    let folder = folder.with("measured.ron", FALL.replace("[Pose(of: \"ball\"), Energy()]", sensors));
+    for (name, entry, others) in [
+        ("ball.position.y", "`sensors[0]` of the scene makes a column of it: Pose(of: \"b*\")\n", "Mean("),
+        ("bed.mean", ": Mean(name: \"bed\", of: \"*\", quantity: \"speed\")\n", "Mean(name: \"other\""),
+    ] {
+        let told = folder.jostle(&format!("explain measured.ron {name}")).code(0).out;
+        assert!(told.contains(entry) && !told.contains(others), "{name}: {told}");
+    }
     folder
         .jostle("explain fall.ron bal.position.y")
         .code(2)

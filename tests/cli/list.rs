@@ -41,6 +41,9 @@ fn what_a_scene_may_name_is_listed_with_its_module() {
     assert!(folder.jostle("list layers").code(0).out.contains("jostle::record::layers::trails"));
     assert!(folder.jostle("list themes").code(0).out.contains("paper\n"));
     assert!(folder.jostle("list channels energy").code(0).out.contains("energy.residual\n"));
+    for list in ["channels", "quantities"] {
+        assert!(folder.jostle(&format!("list {list}")).code(0).out.contains("`jostle explain CHANNEL`"), "{list}");
+    }
 }
 
 #[test]

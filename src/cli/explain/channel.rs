@@ -6,7 +6,7 @@ use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{number, print_line};
 use crate::scene::schema::Language;
-use crate::scene::{Diagnostics, SceneRegistry, Source};
+use crate::scene::{Diagnostics, Known, Mention, Outline, SceneRegistry, Source, fits};
 use crate::sensors::{self, Channels, QUANTITIES};
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::energy::CHANNELS;
@@ -101,24 +101,23 @@ pub(super) fn of_scene(request: Request, flags: &OverrideFlags, name: &str) -> E
     let has_column =
         simulation.get_resource::<Channels>().is_some_and(|channels| channels.iter().any(|column| column.name == name));
     let registry = simulation.resource::<SceneRegistry>();
-    let column = if has_column {
-        "A sensor of the scene makes a column of it."
-    } else {
-        "No sensor of the scene makes a column of it."
-    };
     let (owner, quantity) = name.split_once('.').unwrap_or(("", name));
     let language = Language::of(registry);
     let whole = registry.words(CHANNELS).contains(&name);
-    let measured = if whole {
-        measured(name, None, registry, &language)
-    } else {
-        measured(quantity, Some(owner), registry, &language)
+    let (owner, quantity) = if whole { (None, name) } else { (Some(owner), quantity) };
+    let own = if has_column { own_sensors(quantity, owner, &outline, registry, &language) } else { String::new() };
+    let column = match (has_column, own.is_empty()) {
+        (false, _) => "No sensor of the scene makes a column of it.",
+        (true, true) => "A sensor of the scene makes a column of it.",
+        (true, false) => "",
     };
+    let measured = if own.is_empty() { measured(quantity, owner, registry, &language) } else { own };
     print_line(&format!(
-        "`{name}` is a channel of {}{}. At the start it {}. {column}{measured}",
+        "`{name}` is a channel of {}{}. At the start it {}.{}{column}{measured}",
         request.name,
         in_unit(channel.unit),
-        value.trim_end()
+        value.trim_end(),
+        if column.is_empty() { "" } else { " " },
     ))
 }
 
@@ -130,29 +129,67 @@ fn in_unit(unit: &str) -> String {
     if unit.is_empty() { ", a pure number".to_owned() } else { format!(", in {unit}") }
 }
 
-/// The sensors that say of themselves that they measure a quantity, with what they say.
+/// The sensors of the scene that make a column of a quantity, as the scene writes them, with their meanings.
+fn own_sensors(
+    quantity: &str,
+    owner: Option<&str>,
+    outline: &Outline,
+    registry: &SceneRegistry,
+    language: &Language,
+) -> String {
+    let mut text = String::new();
+    for (entry, told) in measuring(quantity, registry, language) {
+        let of_owner = |mention: &&Mention| {
+            // Every second part of the text stands in quotes: its own name, or the names of what it measures.
+            let mut quoted = mention.text.split('"').skip(1).step_by(2).peekable();
+            mention.name == entry.name
+                && owner.is_none_or(|owner| quoted.peek().is_none() || quoted.any(|name| fits(name, owner)))
+        };
+        let mut mentions = outline.entries("sensors").iter().filter(of_owner).peekable();
+        if mentions.peek().is_none() {
+            continue;
+        }
+        for Mention { path, text: written, .. } in mentions {
+            let written = written.split_whitespace().collect::<Vec<_>>().join(" ");
+            text += &format!("\n`{path}` of the scene makes a column of it: {written}");
+        }
+        text += &format!("\n{told}");
+    }
+    text
+}
+
+/// The sensors that make a column of a quantity, with an example and what they say.
 fn measured(quantity: &str, owner: Option<&str>, registry: &SceneRegistry, language: &Language) -> String {
+    let mut text = String::new();
+    for (entry, told) in measuring(quantity, registry, language) {
+        let example = match (owner, entry.example.split_once("of: \"")) {
+            (Some(owner), Some((head, rest))) if !entry.example.contains("name:") => {
+                let tail = rest.split_once('"').map_or("", |(_, tail)| tail);
+                format!("{head}of: \"{owner}\"{tail}")
+            }
+            _ => entry.example.to_owned(),
+        };
+        text += &format!("\nThe sensor `{}` makes a column of it: {example}\n{told}", entry.name);
+    }
+    text
+}
+
+/// The sensors that say of themselves that they measure a quantity, with what they say.
+fn measuring(quantity: &str, registry: &SceneRegistry, language: &Language) -> Vec<(Known, String)> {
     let whole = quantity.contains('.') && registry.words(CHANNELS).contains(&quantity);
     // Sensors that document x measure y too.
     let other = quantity.strip_suffix(".y").map(|stem| format!("{stem}.x"));
     let says = |told: &str, quantity: &str| {
         if whole { told.contains(&format!("`{quantity}`")) } else { told.contains(&format!(".{quantity}`")) }
     };
-    let mut text = String::new();
+    let mut found = Vec::new();
     for entry in registry.entries("sensors") {
         let told = language.told("sensors", Some(entry.name)).unwrap_or_default();
         // Behind its own words stand those of its fields.
         let told = told.lines().take_while(|line| !line.starts_with("  ")).collect::<Vec<_>>().join("\n");
         if says(&told, quantity) || other.as_ref().is_some_and(|other| says(&told, other)) {
-            let example = match (owner, entry.example.split_once("of: \"")) {
-                (Some(owner), Some((head, rest))) if !entry.example.contains("name:") => {
-                    let tail = rest.split_once('"').map_or("", |(_, tail)| tail);
-                    format!("{head}of: \"{owner}\"{tail}")
-                }
-                _ => entry.example.to_owned(),
-            };
-            text += &format!("\nThe sensor `{}` makes a column of it: {example}\n{}", entry.name, told.trim_end());
+            found.push((entry, told.trim_end().to_owned()));
         }
     }
-    text
+    found
 }
