@@ -87,7 +87,10 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
         return exit.worse(print_json(request.name, simulation, &card, &outcomes, back));
     }
     if detail == Detail::Card {
-        say(&format!("{}\n{card}", simulation.header().title.as_deref().unwrap_or(request.name)));
+        // The lines above have told the warnings.
+        let mut told = card.clone();
+        told.notes.retain(|note| !note.starts_with("warning: "));
+        say(&format!("{}\n{told}", simulation.header().title.as_deref().unwrap_or(request.name)));
     }
     if let Some(back) = back {
         say(&format!("  {}", returned(back)));

@@ -65,6 +65,22 @@ fn the_advised_tick_helps() {
     }
 }
 
+/// A tolerance out of reach has its cause. If that is the finest steps, neither rounding nor chaos is blamed. A line and the verdict tell
+/// it, and the card below that line does not repeat it.
+#[test]
+fn a_tolerance_that_the_finest_steps_do_not_reach() {
+    let folder = Folder::new("finest");
+    for (scene, cause) in [
+        ("bounce --duration 4 --tolerance 1e-12", ": the engine takes no finer steps"),
+        ("tetris --duration 4 --tolerance 1e-9", ": the motion magnifies errors of the finest steps, as chaos does"),
+    ] {
+        let told = folder.jostle(&format!("run example:{scene}")).err;
+        assert!(told.starts_with("warning: example:") && told.contains(cause), "{scene}: {told}");
+        assert!(!told.contains("by rounding or chaos"), "{scene}: {told}");
+        assert_eq!(told.matches("is not reached").count(), 2, "{scene}: {told}");
+    }
+}
+
 #[test]
 fn a_good_run_has_none() {
     let folder = Folder::new("no_warning").with("bounce.ron", BOUNCE);

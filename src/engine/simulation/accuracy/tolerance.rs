@@ -33,6 +33,9 @@ const MOST_EVALUATIONS: u64 = 30_000_000;
 /// A scene loses digits if its distance from the origin exceeds the ways of its bodies by this factor.
 const FAR: f64 = 10.0;
 
+/// Errors of steps add up. If that of the run exceeds the error of a step by more than this factor, the motion magnifies them.
+const MAGNIFIED: f64 = 1e6;
+
 /// Observed powers beyond these are chance.
 const LEAST_POWER: f64 = 0.5;
 const MOST_POWER: f64 = 9.0;
@@ -153,7 +156,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         }
         let dear = trials.evaluations > MOST_EVALUATIONS;
         if alike || dear || next <= climb.finest || trials.count >= MOST_TRIALS {
-            return Ok(missed(trials, next, tolerance, (&coarse, &fine), apart.times(share_at(next))));
+            let ends = Ends { fineness: next, finest: next <= climb.finest };
+            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
         before = Some((fineness, difference, difference * share_at(next)));
@@ -198,15 +202,23 @@ fn bounded(farthest: f64, distance: f64) -> String {
     }
 }
 
+/// How a ladder ended that leads to no plan.
+#[derive(Clone, Copy)]
+struct Ends {
+    fineness: f64,
+    /// Whether the engine takes no finer steps.
+    finest: bool,
+}
+
 /// No run was fine enough. The finest is taken, and the card gives the time from which it is wrong.
 fn missed(
     trials: &Trials,
-    fineness: f64,
+    ends: Ends,
     tolerance: f64,
     (coarse, fine): (&Trajectory, &Trajectory),
     error: TrajectoryDistance,
 ) -> Plan {
-    let mut plan = trials.planned(fineness);
+    let mut plan = trials.planned(ends.fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
     let why = match lost {
         _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
@@ -216,7 +228,15 @@ fn missed(
         _ if coarse.overloaded || fine.overloaded => {
             "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
         }
-        Some(time) => format!("the two finest runs part at t = {} s, by rounding or chaos", number(time)),
+        Some(time) => {
+            let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
+            let why = match ends.finest {
+                true if magnified => ": the motion magnifies errors of the finest steps, as chaos does",
+                true => ": the engine takes no finer steps",
+                false => ", by rounding or chaos",
+            };
+            format!("the two finest runs part at t = {} s{why}", number(time))
+        }
         None => "the two finest runs differ in their velocities by more".to_owned(),
     };
     plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
