@@ -11,10 +11,10 @@ use super::flags::{self, OverrideFlags};
 use super::inputs::Inputs;
 use super::load::Request;
 use super::progress_bar::Progress;
-use super::say::{number, say};
+use super::say::{count as count_of, number, say};
 use crate::output;
-use crate::raster::{Theme, figure};
-use crate::record::plot::phase_portrait;
+use crate::raster::{LEAST_FIGURE, Theme, figure};
+use crate::record::plot::pairs;
 use crate::record::plot::table::{self, Column};
 use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
 use crate::record::sections::{PlotEntry, PlotsSection};
@@ -110,8 +110,16 @@ impl PlotCommand {
                 "{count} plots do not fit into one picture, at most {MOST_PLOTS} do: choose some with --channels"
             ));
         }
-        self.tell_what_is_not_shown(&plots);
         let count = plots.len() as u32;
+        let least = (LEAST_FIGURE.0, count.max(1) * LEAST_FIGURE.1);
+        if let Some((width, height)) = self.size.filter(|(width, height)| *width < least.0 || *height < least.1) {
+            let plots = count_of(plots.len(), "plot", "plots");
+            let message = format!("{width}x{height} is too small for {plots}: their labels would overlap");
+            let fewer = if count > 1 { ", or choose fewer channels with --channels" } else { "" };
+            let help = format!("the least size is {}x{}{fewer}", least.0, least.1);
+            return request.refuse(Exit::Usage, "--size", &message, &help);
+        }
+        self.tell_what_is_not_shown(&plots);
         let size = self.size.unwrap_or((WIDTH, if count == 1 { HEIGHT } else { count * HEIGHT_OF_SEVERAL }));
         let theme = self.theme.as_deref().or(Theme::names().first().copied()).and_then(Theme::named);
         let theme = theme.expect("a program without a theme fails its tests");

@@ -144,6 +144,30 @@ fn figures_of_scenes_and_tables_are_drawn() {
     assert_ne!(folder.read("one.png"), folder.read("table.png"));
 }
 
+/// Promise: a figure in which labels would overlap is refused with the least size, and that size is drawn. At the upper edge of each plot
+/// rows are blank, so nothing of one plot lies in another.
+#[test]
+fn a_figure_too_small_for_its_labels_is_refused() {
+    let folder = Folder::new("plot_small").with("fly.ron", SCENE);
+    let three = "plot fly.ron --channels energy.total,ball.position.y,ball.velocity.y";
+    let ended = folder.jostle(&format!("{three} --size 300x150")).code(2);
+    ended.says("300x150 is too small for 3 plots").says("the least size is 160x285, or choose fewer channels");
+    folder.jostle("plot fly.ron --channels energy.total --size 150x400").code(2).says("the least size is 160x95\n");
+    assert!(!folder.has("fly.png"));
+    for size in ["160x285", "2000x285"] {
+        folder.jostle(&format!("{three} --size {size} -o least.png --quiet")).code(0);
+        let picture = picture(&folder, "least.png");
+        let (width, height) = picture.dimensions();
+        let background = *picture.get_pixel(0, 0);
+        let is_blank = |row: u32| (0..width).all(|x| *picture.get_pixel(x, row) == background);
+        for plot in 0..3 {
+            let edge = plot * height / 3;
+            let between = (edge.saturating_sub(4)..edge + 4).filter(|row| is_blank(*row)).count();
+            assert!(between >= 4, "{size}: plot {plot}: {between} blank rows at its upper edge");
+        }
+    }
+}
+
 #[test]
 fn what_cannot_be_plotted_is_told() {
     let bare = SCENE.replace(

@@ -139,23 +139,22 @@ impl Chart {
         let across_ticks = fitting.unwrap_or_else(|| across_ticks(1));
 
         let up_unit = axis_ticks::unit(&plot.up.unit, up_ticks.exponent);
-        let mut across_label =
-            with_unit(&plot.across.label, &axis_ticks::unit(&plot.across.unit, across_ticks.exponent));
+        let across_unit = axis_ticks::unit(&plot.across.unit, across_ticks.exponent);
+        let across_label = if named { with_unit(&plot.across.label, &across_unit) } else { String::new() };
         let mut aside = if turned || up_unit.is_empty() { String::new() } else { format!("({up_unit})") };
         if let Content::Bars(bars) = &plot.content
             && let Some(most) = bars.counts.iter().filter_map(|(_, counts)| counts.last()).max()
         {
             aside = outside(*most);
         }
-        if !named {
-            across_label.clear();
-        }
-        let up_named = turned && bottom - top >= LOWEST * text;
+        // A part of the name says nothing, and the title has all of it.
+        let up_labels = [plot.up.label.as_str(), ""].map(|label| with_unit(label, &up_unit));
+        let fits = |label: &String| turned && bottom - top >= LOWEST * text && small.width(label) <= inner.height();
         let mut chart = Chart {
             title: plot.title.clone(),
             aside,
             across_label,
-            up_label: if up_named { with_unit(&plot.up.label, &up_unit) } else { String::new() },
+            up_label: up_labels.into_iter().find(fits).unwrap_or_default(),
             outer,
             inner,
             across: (Scale::new(across_range, (inner.left, inner.right), plot.across.logarithmic), across_ticks),

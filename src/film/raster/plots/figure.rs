@@ -12,6 +12,13 @@ use jostle_frames::plot::Plot;
 /// Letters of a figure are larger than those beside a film: it is looked at alone, and often made smaller.
 pub(super) const LETTERS: f32 = 1.45;
 
+/// The least width of a figure, and the least height of each of its plots, in pixels. That holds a title, labels at both axes and a
+/// curve, in the smallest letters that can be read.
+pub const LEAST: (u32, u32) = (160, 95);
+
+/// Width and height in pixels of the smallest plot for letters as large as those beside a film of 1280 x 720.
+const ROOM: (f32, f32) = (240.0, 160.0);
+
 /// Draws plots below each other, in their final state.
 ///
 /// # Errors
@@ -20,7 +27,9 @@ pub fn figure(plots: &[Plot], theme: &Theme, (width, height): (u32, u32)) -> Res
     let mut picture = Pixmap::new(width, height).ok_or(SizeError { width, height })?;
     let count = plots.len().max(1) as f32;
     let each = height as f32 / count;
-    let sizes = Sizes::new(LETTERS * (width as f32 * each / (1280.0 * 720.0)).sqrt());
+    let unit = LETTERS * (width as f32 * each / (1280.0 * 720.0)).sqrt();
+    // In a flat or narrow figure the short side bounds the letters.
+    let sizes = Sizes::new(unit.min(width as f32 / ROOM.0).min(each / ROOM.1));
     let tones = Tones::new(theme);
     let mut canvas = Canvas::new(&mut picture);
     for row in 0..canvas.height() {

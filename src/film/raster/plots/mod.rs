@@ -17,7 +17,7 @@ use tiny_skia::Pixmap;
 
 pub(super) use chart::Tools;
 pub use diagram::{Diagram, Look, Sign, Spot, draw_diagram};
-pub use figure::figure;
+pub use figure::{LEAST as LEAST_FIGURE, figure};
 
 use super::canvas::{Canvas, fill};
 use super::theme::Theme;
