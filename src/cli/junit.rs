@@ -132,6 +132,7 @@ mod tests {
             reason: String::new(),
             errors: None,
             expect: vec![outcome("A(of: \"b\")", true), outcome("C(\n    d: 1)", false)],
+            completed: true,
             warnings: Vec::new(),
             hash: None,
             seconds: 0.25,

@@ -54,7 +54,9 @@ pub(super) struct Trial {
     pub reason: String,
     /// The mistakes of a scene that was refused.
     pub errors: Option<SceneErrors>,
-    pub expect: Vec<ExpectationOutcome>,
+    pub expect: Vec<Outcome>,
+    /// Whether the run came to its end. Otherwise expectations speak of a part of it at most.
+    pub completed: bool,
     pub warnings: Vec<String>,
     /// The hash of the last state.
     pub hash: Option<String>,
@@ -81,6 +83,7 @@ impl Trial {
             reason,
             errors: Some(errors),
             expect: Vec::new(),
+            completed: false,
             warnings: Vec::new(),
             hash: None,
             seconds: 0.0,
@@ -104,6 +107,7 @@ impl Trial {
             reason,
             errors: None,
             expect,
+            completed: failure.is_none(),
             hash: Some(card.hash),
             warnings: card.warnings,
             seconds: simulation.seconds_spent(),

@@ -104,7 +104,8 @@ fn runs_that_fail_are_rows_with_their_reason() {
     assert_eq!([&rows[1][2], &rows[2][2], &rows[3][2]], ["good", "refused", "good"]);
     assert!(rows[2].concat().contains("bodies[0].atoms.mass: must be"), "{rows:?}");
     // The message of a run that went wrong, without the lines below it.
-    let spring = "forces: [Spring(a: \"ball\", b: World, stiffness: \"stiff\")], params: { \"stiff\": 1 },\n)";
+    let spring = "forces: [Spring(a: \"ball\", b: World, stiffness: \"stiff\")], params: { \"stiff\": 1 },
+        expect: [Channel(name: \"ball.position.x\", below: 1e300)],\n)";
     let folder = folder.with("spring.ron", FALL.strip_suffix(')').unwrap().to_owned() + spring);
     let ended = folder.jostle("sweep spring.ron --vary stiff=1,1e9 -o sprung").code(3);
     assert!(ended.err.contains("): failed: "), "{ended:?}");
@@ -112,6 +113,9 @@ fn runs_that_fail_are_rows_with_their_reason() {
     assert_eq!((rows.len(), rows[0].last().map(String::as_str)), (3, Some("reason")));
     assert_eq!([&rows[1][2], &rows[2][2]], ["good", "failed"]);
     assert!(rows[1].last().unwrap().is_empty() && rows[2].concat().contains("energy came out of nowhere"), "{rows:?}");
+    // The claim held as long as the run lasted, which says nothing of its end.
+    assert_eq!(rows[0][3..5], ["expectations held", "expectations"]);
+    assert_eq!([&rows[1][3..5], &rows[2][3..5]], [["1", "1"], ["not reached", "1"]], "{rows:?}");
     // What is wrong with all of them is told with its place.
     let ended = folder.jostle("sweep ball.ron --vary bodies.ball.atoms.mas=1,2 -o out").code(1);
     assert!(ended.err.contains("ball.ron:7:") && ended.err.contains("did you mean `mass`"), "{ended:?}");

@@ -23,6 +23,8 @@ const FIXED: [&str; 8] = [
     "tick [s]",
     "hash",
 ];
+/// The cell of the expectations that held, for a run that ended too early to judge them.
+const NOT_REACHED: &str = "not reached";
 const RUN: &str = "run";
 const REASON: &str = "reason";
 /// The prefix of the header of a shard's last column, which has no cells.
@@ -62,7 +64,11 @@ impl Row {
         };
         let fixed = vec![
             trial.verdict.word().to_owned(),
-            trial.held().to_string(),
+            if trial.verdict == Verdict::Failed && !trial.completed && !trial.expect.is_empty() {
+                NOT_REACHED.to_owned()
+            } else {
+                trial.held().to_string()
+            },
             trial.expect.len().to_string(),
             of_card(|card| card.energy.residual),
             of_card(|card| card.energy_error()),
