@@ -111,30 +111,42 @@ impl Check {
     }
 }
 
-/// An anchor that the scene gives, and where it is at the start.
+/// An anchor, and where it is at the start.
 struct Seen {
     path: String,
-    body: String,
+    /// `None`: the world.
+    body: Option<String>,
     position: [f64; 2],
+    /// Smaller coordinates are rounding.
+    rounding: f64,
+    given: bool,
 }
 
 impl Seen {
     fn told(&self) -> String {
-        let Self { path, body, position: [x, y] } = self;
-        format!("`{path}` on `{body}` is at ({}, {}) m at the start", number(*x), number(*y))
+        let shown = |place: f64| number(if place.abs() <= self.rounding { 0.0 } else { place });
+        let [x, y] = self.position.map(shown);
+        let body = self.body.as_ref().map_or_else(|| "the world".to_owned(), |body| format!("`{body}`"));
+        let default = if self.given { "" } else { ", by default" };
+        format!("`{}` on {body} is at ({x}, {y}) m at the start{default}", self.path)
     }
 
     fn json(&self) -> serde_json::Value {
-        serde_json::json!({ "path": self.path, "body": self.body, "position": self.position })
+        let Self { path, body, position, given, .. } = self;
+        serde_json::json!({ "path": path, "body": body, "position": position, "default": !given })
     }
 }
 
 fn anchors(simulation: &Simulation) -> Vec<Seen> {
     let (world, bodies) = (simulation.unpublished_world(), simulation.bodies());
     let seen = |anchor: &Anchor| {
-        let (_, at) = anchor.index(bodies)?;
-        let body = world.get::<Name>(anchor.body).map(Name::to_string).unwrap_or_default();
-        Some(Seen { path: anchor.path.clone(), body, position: at.to_array() })
+        Some(Seen {
+            path: anchor.path.clone(),
+            body: anchor.body.map(|body| world.get::<Name>(body).map(Name::to_string).unwrap_or_default()),
+            position: anchor.position(bodies)?.to_array(),
+            rounding: anchor.rounding(bodies),
+            given: anchor.given,
+        })
     };
     simulation.get_resource::<Anchors>().map_or_else(Vec::new, |anchors| anchors.0.iter().filter_map(seen).collect())
 }

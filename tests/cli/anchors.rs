@@ -25,3 +25,35 @@ fn check_tells_where_anchors_are_at_the_start() {
     assert!((anchors[20]["position"][1].as_f64().unwrap() - 2.4).abs() < 1e-15, "{}", anchors[20]);
     assert_eq!(folder.jostle("check fall.ron").code(0).err, "");
 }
+
+/// Laws: an anchor that is left out is the centre of mass, or the place where the bodies meet. `check` says that a default gives it. A
+/// coordinate that is rounding, such as `0.5 cos(90 deg) = 3e-17`, is shown as 0. `--json` keeps it.
+#[test]
+fn check_tells_anchors_that_follow_from_defaults() {
+    let scene = "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: VelocityVerlet), contacts: None, bodies: [
+        (name: \"bar\", at: (0, 1), angle: \"90 deg\", shape: Rectangle(width: 1, height: 0.1)), (name: \"ball\", at: (2, 1), atoms: Disc(radius: 0.1))],
+        joints: [Revolute(a: World, b: \"bar\", anchor_b: (0.5, 0)), Distance(a: \"bar\", b: \"ball\", anchor_a: (-0.5, 0))],
+        forces: [Spring(a: \"bar\", b: \"ball\", anchor_a: (0.5, 0), stiffness: 1)])";
+    let folder = Folder::new("default_anchors").with("bar.ron", scene);
+    let told = folder.jostle("check bar.ron").code(0).err;
+    for line in [
+        "`joints[0].anchor_a` on the world is at (0, 1.5) m at the start, by default",
+        "`joints[0].anchor_b` on `bar` is at (0, 1.5) m at the start",
+        "`joints[1].anchor_a` on `bar` is at (0, 0.5) m at the start",
+        "`joints[1].anchor_b` on `ball` is at (2, 1) m at the start, by default",
+        "`forces[0].anchor_a` on `bar` is at (0, 1.5) m at the start",
+        "`forces[0].anchor_b` on `ball` is at (2, 1) m at the start, by default",
+    ] {
+        assert!(told.contains(&format!("anchor: bar.ron: {line}\n")), "{line}: {told}");
+    }
+    let [result] = &folder.jostle("check --json bar.ron").code(0).json()[..] else { panic!("one line") };
+    let anchors = result["anchors"].as_array().expect("a list");
+    let of = |path: &str| anchors.iter().find(|anchor| anchor["path"] == path).expect("it is there");
+    assert_eq!(
+        (&of("joints[0].anchor_a")["default"], &of("joints[0].anchor_b")["default"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(of("joints[0].anchor_a")["body"], serde_json::Value::Null);
+    let x = of("joints[0].anchor_b")["position"][0].as_f64().expect("a number");
+    assert!(x != 0.0 && x.abs() < 1e-16, "{x}");
+}

@@ -146,10 +146,13 @@ impl ForceLink {
         let keys = [Some(self.keys.0), self.keys.1];
         let ends = [(&mut self.anchors.0, "anchor_a"), (&mut self.anchors.1, "anchor_b")];
         for (((anchor, field), key), given) in ends.into_iter().zip(keys).zip(given) {
-            let Some(given) = given else { continue };
             let bodies = &world.resource::<State>().bodies;
             let body = key.and_then(|key| bodies.key.find(key)).map(|index| bodies.entity[index]);
-            *anchor = body.map_or(given, |body| anchor::from_center(world, body, format!("{path}.{field}"), given));
+            let path = format!("{path}.{field}");
+            match given {
+                Some(given) => *anchor = body.map_or(given, |body| anchor::from_center(world, body, path, given)),
+                None => anchor::note_default(world, body, path, *anchor),
+            }
         }
     }
 

@@ -150,16 +150,27 @@ impl Joint {
         worst
     }
 
-    /// Sets the anchors that the scene leaves out, and the origin of those that it gives.
+    /// Sets the anchors that the scene leaves out, and the origin of those that it gives. All of them are noted.
     fn place_anchors(&mut self, world: &mut World) {
-        for side in 0..2 {
-            let (Some(key), Some(anchor)) = (self.ends.keys[side], self.setup.anchors[side]) else { continue };
+        let entity = |world: &World, key: Option<u64>| {
             let bodies = &world.resource::<State>().bodies;
-            let Some(entity) = bodies.key.find(key).map(|index| bodies.entity[index]) else { continue };
-            let path = format!("{}.{}", self.path, ["anchor_a", "anchor_b"][side]);
-            self.ends.anchors[side] = anchor::from_center(world, entity, path, anchor);
+            key.and_then(|key| bodies.key.find(key)).map(|index| bodies.entity[index])
+        };
+        let path = |joint: &Self, side: usize| format!("{}.{}", joint.path, ["anchor_a", "anchor_b"][side]);
+        for side in 0..2 {
+            let own = entity(world, self.ends.keys[side]);
+            let (Some(entity), Some(anchor)) = (own, self.setup.anchors[side]) else { continue };
+            self.ends.anchors[side] = anchor::from_center(world, entity, path(self, side), anchor);
         }
-        let bodies = &world.resource::<State>().bodies;
+        self.place_absent_anchors(&world.resource::<State>().bodies);
+        for side in (0..2).filter(|side| self.setup.anchors[*side].is_none()) {
+            let own = entity(world, self.ends.keys[side]);
+            anchor::note_default(world, own, path(self, side), self.ends.anchors[side]);
+        }
+    }
+
+    /// Sets the anchors that the scene leaves out.
+    fn place_absent_anchors(&mut self, bodies: &Bodies) {
         let Some(pair) = self.ends.pair(bodies) else { return };
         let ends = [pair.a, pair.b];
         let stands = self.setup.absent == Absent::Stands;
