@@ -188,7 +188,7 @@ impl Reader<'_> {
             let right = self.product()?;
             let verb = if sign == "+" { "add" } else { "subtract" };
             let powers = value.common(right, verb).map_err(|why| self.since(start, why))?;
-            value = Number { si: if sign == "+" { value.si + right.si } else { value.si - right.si }, powers };
+            value = Number::new(if sign == "+" { value.si + right.si } else { value.si - right.si }, powers);
         }
         Ok(value)
     }
@@ -283,7 +283,7 @@ impl Reader<'_> {
         let help = || format!("to multiply, write `{} * {unit}`", &rest[..length]);
         let (si, powers) =
             units::value_in(&rest[..length], unit).map_err(|why| wrong(start..end, why, Some(help())))?;
-        Ok(if self.units == Units::Dropped { Number::plain(si) } else { Number { si, powers } })
+        Ok(if self.units == Units::Dropped { Number::plain(si) } else { Number::new(si, powers).named_by(unit) })
     }
 
     /// Units directly after a number: `cm`, `m/s2`, `N m`. A `/` belongs to them only without blanks around it.
@@ -385,16 +385,16 @@ fn apply(name: &str, values: &[Number]) -> Result<Number, String> {
         "sqrt" => a.root(),
         "pow" => a.raised(b),
         "atan2" => a.common(b, "take the angle of").map(|_| Number::plain(libm::atan2(a.si, b.si))),
-        "hypot" => a.common(b, "add").map(|powers| Number { si: libm::hypot(a.si, b.si), powers }),
-        "mod" => a.common(b, "divide").map(|powers| Number { si: a.si - b.si * (a.si / b.si).floor(), powers }),
+        "hypot" => a.common(b, "add").map(|powers| Number::new(libm::hypot(a.si, b.si), powers)),
+        "mod" => a.common(b, "divide").map(|powers| Number::new(a.si - b.si * (a.si / b.si).floor(), powers)),
         "if" => b.common(values[2], "choose between").map(|powers| {
             let chosen = if a.si != 0.0 { b } else { values[2] };
-            Number { si: chosen.si, powers }
+            Number::new(chosen.si, powers)
         }),
         _ => values[1..].iter().try_fold(a, |best, &value| {
             let powers = best.common(value, "compare")?;
             let first = if name == "min" { best.si <= value.si } else { best.si >= value.si };
-            Ok(Number { si: if first { best.si } else { value.si }, powers })
+            Ok(Number::new(if first { best.si } else { value.si }, powers))
         }),
     }
 }
@@ -406,8 +406,8 @@ mod tests {
     fn value(text: &str) -> Outcome {
         evaluate(text, &mut |name| match name {
             "n" => Ok(Number::plain(5.0)),
-            "gap" => Ok(Number { si: 0.02, powers: Powers { meter: 1, ..Powers::default() } }),
-            "mass" => Ok(Number { si: 2.0, powers: Powers { kilogram: 1, ..Powers::default() } }),
+            "gap" => Ok(Number::new(0.02, Powers { meter: 1, ..Powers::default() })),
+            "mass" => Ok(Number::new(2.0, Powers { kilogram: 1, ..Powers::default() })),
             other => Err((format!("no `{other}`"), None)),
         })
     }
@@ -456,6 +456,10 @@ mod tests {
         for (text, place, message) in [
             ("2 * rr", 4..6, "no `rr`"),
             ("gap + 1 + mass", 0..14, "cannot add a length and a mass"),
+            ("gap + 2 kJ", 0..10, "cannot add a length and an energy"),
+            ("gap + 2 N m", 0..11, "cannot add a length and a torque"),
+            ("gap + 2 * 3 N m", 0..15, "cannot add a length and a torque"),
+            ("gap + 2 N * 3 m", 0..15, "cannot add a length and a torque or an energy"),
             ("2 * (n + 1", 4..5, "this bracket is never closed"),
             ("2 n 3", 0..3, "unknown unit `n` (did you mean `N`?)"),
             ("n 3", 2..3, "not expected here"),

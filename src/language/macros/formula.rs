@@ -76,7 +76,7 @@ impl Formula {
         let number = expression::work_out(&self.0, Names::Dotted, Units::Compared, &mut |name| {
             let (value, unit) = value(name).ok_or_else(|| (format!("`{name}` has no value"), None))?;
             let (factor, powers) = units::value_in("1", unit).map_err(|why| (why, None))?;
-            Ok(Number { si: value * factor, powers })
+            Ok(Number::new(value * factor, powers).named_by(unit))
         });
         number.map(|number| (number.si, number.powers)).map_err(|wrong| self.mistake(wrong))
     }

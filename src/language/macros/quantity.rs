@@ -8,11 +8,22 @@ use crate::units::{self, Powers};
 pub(super) struct Number {
     pub(super) si: f64,
     pub(super) powers: Powers,
+    /// The dimension that its unit names, if others have the same powers: joules are an energy, newton metres a torque.
+    pub(super) named: Option<&'static str>,
 }
 
 impl Number {
+    pub(super) const fn new(si: f64, powers: Powers) -> Self {
+        Self { si, powers, named: None }
+    }
+
     pub(super) const fn plain(si: f64) -> Self {
-        Self { si, powers: Powers { meter: 0, kilogram: 0, second: 0, radian: 0 } }
+        Self::new(si, Powers { meter: 0, kilogram: 0, second: 0, radian: 0 })
+    }
+
+    /// The same with the dimension that a unit names.
+    pub(super) fn named_by(self, unit: &str) -> Self {
+        Self { named: units::named_as_written(unit, self.powers), ..self }
     }
 
     pub(super) fn is_plain(self) -> bool {
@@ -34,8 +45,11 @@ impl Number {
     /// The product, or with `power` -1 the quotient.
     pub(super) fn times(self, other: Self, power: i32) -> Result<Self, String> {
         let si = if power < 0 { self.si / other.si } else { self.si * other.si };
+        // A multiple of an energy is an energy.
+        let named = if other.is_plain() { self.named } else { other.named.filter(|_| self.is_plain() && power == 1) };
         let other = combined(other.powers, Powers::default(), |a, _| a * power)?;
-        Ok(Self { si, powers: combined(self.powers, other, |a, b| a + b)? }.without_powers_of_angles())
+        let product = Self::new(si, combined(self.powers, other, |a, b| a + b)?).without_powers_of_angles();
+        Ok(Self { named, ..product })
     }
 
     /// Angles are ratios of lengths. So a plain number over an angle is a plain number, as is the square of an angle.
@@ -57,7 +71,7 @@ impl Number {
         }
         let power = exponent.si as i32;
         let powers = combined(self.powers, Powers::default(), |a, _| a * power)?;
-        Ok(Self { si: libm::pow(self.si, exponent.si), powers }.without_powers_of_angles())
+        Ok(Self::new(libm::pow(self.si, exponent.si), powers).without_powers_of_angles())
     }
 
     pub(super) fn root(self) -> Result<Self, String> {
@@ -65,12 +79,12 @@ impl Number {
         if [meter, kilogram, second, radian].iter().any(|power| power % 2 != 0) {
             return Err(format!("{} has no square root in whole units", self.kind()));
         }
-        Ok(Self { si: libm::sqrt(self.si), powers: combined(self.powers, Powers::default(), |a, _| a / 2)? })
+        Ok(Self::new(libm::sqrt(self.si), combined(self.powers, Powers::default(), |a, _| a / 2)?))
     }
 
     /// The quantity that it measures, for messages.
     pub(super) fn kind(self) -> String {
-        units::name_of(self.powers).trim_end_matches(':').to_owned()
+        self.named.map_or_else(|| units::name_of(self.powers).trim_end_matches(':').to_owned(), str::to_owned)
     }
 
     /// The text for a number or quantity in a scene, with every digit.

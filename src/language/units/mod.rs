@@ -30,7 +30,7 @@ use glam::DVec2;
 
 pub use either::{Either, Said};
 pub use read::parse_si;
-pub(crate) use read::{base_units, is_quantity, is_unit, name_of, number_length, value_in};
+pub(crate) use read::{base_units, is_quantity, is_unit, name_of, named_as_written, number_length, value_in};
 
 /// The powers of the base units meter, kilogram, second and radian in a unit.
 ///

@@ -25,7 +25,7 @@ pub fn parse_si(text: &str, name: &str, powers: Powers, example: &str) -> Result
     }
     let size = product(unit).map_err(|why| format!("{why} in {text:?}; expected {name} such as {example}"))?;
     if size.powers != powers {
-        let found = name_as_written(unit, size.powers);
+        let found = named_as_written(unit, size.powers).map_or_else(|| name_of(size.powers), str::to_owned);
         return Err(format!("expected {name} such as {example}, got {found} `{trimmed}`"));
     }
     let value = decimal(number, size.exponent).map(|value| value * size.factor);
@@ -177,14 +177,12 @@ pub(crate) fn name_of(powers: Powers) -> String {
     if names.is_empty() { format!("something in `{}`:", base_units(powers)) } else { names.join(" or ") }
 }
 
-/// The name of the dimension of a unit. Joule and newton metre have the same powers, and the symbol tells an energy from a torque.
-fn name_as_written(unit: &str, powers: Powers) -> String {
+/// The dimension that a unit names, if another one has the same powers. Joule and newton metre have, and the symbol tells an energy
+/// from a torque.
+pub(crate) fn named_as_written(unit: &str, powers: Powers) -> Option<&'static str> {
     let has_joule = unit.split([' ', '/', '*', '·', '⋅']).filter_map(table::find).any(|(unit, _)| unit.symbol == "J");
-    match (powers == OfEnergy::POWERS, has_joule) {
-        (true, true) => OfEnergy::NAME.to_owned(),
-        (true, false) => OfTorque::NAME.to_owned(),
-        _ => name_of(powers),
-    }
+    let name = if has_joule { OfEnergy::NAME } else { OfTorque::NAME };
+    (powers == OfEnergy::POWERS).then_some(name)
 }
 
 /// The product of base units of a dimension, such as `kg m2 s-2`.
