@@ -14,7 +14,7 @@ use super::progress_bar::Progress;
 use super::say::{count as count_of, number, say};
 use crate::output;
 use crate::raster::{LEAST_FIGURE, Theme, figure};
-use crate::record::plot::pairs;
+use crate::record::plot::phase_portrait;
 use crate::record::plot::table::{self, Column};
 use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
 use crate::record::sections::{PlotEntry, PlotsSection};

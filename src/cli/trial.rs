@@ -54,7 +54,7 @@ pub(super) struct Trial {
     pub reason: String,
     /// The mistakes of a scene that was refused.
     pub errors: Option<SceneErrors>,
-    pub expect: Vec<Outcome>,
+    pub expect: Vec<ExpectationOutcome>,
     /// Whether the run came to its end. Otherwise expectations speak of a part of it at most.
     pub completed: bool,
     pub warnings: Vec<String>,

@@ -230,7 +230,7 @@ impl<A> Loading<'_, A> {
         match explain::read(&text[span.clone()]) {
             Ok(value) => Some(value),
             Err(fault) => {
-                let wanted = Wanted { node: id, example, describe: |_| None };
+                let wanted = Wanted { node: id, example, describe: |_| true.into() };
                 self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, wanted));
                 None
             }
@@ -278,7 +278,7 @@ impl<A> Loading<'_, A> {
                 let help = "the name is reserved for a later version; remove the section";
                 self.errors.push(error.at(tree.key(id), "not available yet").with_help(help));
             }
-            Reader::Section(read, _) => {
+            Reader::Section(read, describe) => {
                 let span = tree.span(id);
                 match read(&text[span.clone()]) {
                     Ok(section) => {
@@ -288,7 +288,7 @@ impl<A> Loading<'_, A> {
                         self.lists_inside(name, id);
                     }
                     Err(fault) => {
-                        let wanted = Wanted { node: id, example: known.example, describe: known.describe };
+                        let wanted = Wanted { node: id, example: known.example, describe: *describe };
                         self.errors.push(self.walked.explain(&fault.code, span.start + fault.offset, wanted));
                     }
                 }

@@ -6,7 +6,7 @@ use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{number, print_line};
 use crate::scene::schema::Language;
-use crate::scene::{Diagnostics, Known, Mention, Outline, SceneRegistry, Source, fits};
+use crate::scene::{Diagnostics, Mention, Outline, RegisteredName, SceneRegistry, Source, fits};
 use crate::sensors::{self, Channels, QUANTITIES};
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::energy::CHANNELS;
@@ -175,7 +175,7 @@ fn measured(quantity: &str, owner: Option<&str>, registry: &SceneRegistry, langu
 }
 
 /// The sensors that say of themselves that they measure a quantity, with what they say.
-fn measuring(quantity: &str, registry: &SceneRegistry, language: &Language) -> Vec<(Known, String)> {
+fn measuring(quantity: &str, registry: &SceneRegistry, language: &Language) -> Vec<(RegisteredName, String)> {
     let whole = quantity.contains('.') && registry.words(CHANNELS).contains(&quantity);
     // Sensors that document x measure y too.
     let other = quantity.strip_suffix(".y").map(|stem| format!("{stem}.x"));

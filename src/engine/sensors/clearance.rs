@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, Intangible, PackedWall};

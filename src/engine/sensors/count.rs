@@ -8,7 +8,7 @@ use serde::Deserialize;
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found, declare};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::sections::Region;

@@ -13,7 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, declare, find, missing};
-use crate::scene::{Diagnostics, Entry, Formula, Mistake, Outline, SceneAppExt, SceneError, Written};
+use crate::scene::{Diagnostics, Entry, Formula, Mistake, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
 

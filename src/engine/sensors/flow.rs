@@ -13,7 +13,7 @@ use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, bodies_named, declare};
-use crate::scene::units::{Position, Time};
+use crate::scene::units::{LengthPair, Time};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;

@@ -11,7 +11,7 @@ use serde::Deserialize;
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found, check_quantity, declare, find_all, require};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Name;
 use crate::world::sections::Region;

@@ -163,7 +163,7 @@ fn declare(name: &str, outline: &mut Outline) {
         let message = format!("the name \"{name}\" is taken: `{word}` is a channel of the whole scene");
         outline.refuse("name", message).help("give the sensor another name");
     } else {
-        outline.declare(Kind::SENSOR, name, "name");
+        outline.declare(NameKind::SENSOR, name, "name");
     }
 }
 

@@ -10,7 +10,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, check_channel, declare, require};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, add_looker};
 

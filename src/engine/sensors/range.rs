@@ -13,8 +13,8 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, declare};
-use crate::scene::units::{Angle, Length, Position};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::units::{Angle, Length, LengthPair};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, PackedLine, anchor};

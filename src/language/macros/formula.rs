@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use super::expression::{self, Names, Units, Wrong};
+use super::expression::{self, FormulaMistake, Names, Units};
 use super::quantity::Number;
 use crate::units::{self, Powers};
 
@@ -72,7 +72,7 @@ impl Formula {
     ///
     /// # Errors
     /// Its first mistake.
-    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<Known<'a>>) -> Result<(f64, Powers), Mistake> {
+    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<NamedValue<'a>>) -> Result<(f64, Powers), Mistake> {
         let number = expression::work_out(&self.0, Names::Dotted, Units::Compared, &mut |name| {
             let (value, unit) = value(name).ok_or_else(|| (format!("`{name}` has no value"), None))?;
             let (factor, powers) = units::value_in("1", unit).map_err(|why| (why, None))?;

@@ -16,7 +16,7 @@ mod tidy;
 
 pub use choices::Choice;
 pub use json_instance::as_json;
-pub use manual::{Part, anchor};
+pub use manual::{LanguagePart, anchor};
 pub(crate) use nearest_example::nearest_example;
 
 use schemars::generate::{SchemaGenerator, SchemaSettings};

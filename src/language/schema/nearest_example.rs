@@ -20,7 +20,7 @@ pub(crate) fn nearest_example(describe: Describe, walked: Walked<'_>, from: Id, 
         way.push(walked.tree.node(last).parent);
     }
     let mut generator = SchemaSettings::draft2020_12().into_generator();
-    let whole = Value::from(describe(&mut generator)?);
+    let whole = Value::from(describe(&mut generator));
     let definitions = generator.take_definitions(true);
     let mut schemas = vec![&whole];
     let mut found = None;

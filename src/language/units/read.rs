@@ -6,7 +6,7 @@ use std::marker::PhantomData;
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
 use super::dimension::{OfEnergy, OfTorque};
-use super::{Dimension, KNOWN, Pair, Powers, Quantity, table};
+use super::{Dimension, KNOWN, Powers, Quantity, QuantityPair, unit_table};
 
 /// Reads a number with a unit into SI units.
 ///
@@ -180,7 +180,8 @@ pub(crate) fn name_of(powers: Powers) -> String {
 /// The dimension that a unit names, if another one has the same powers. Joule and newton metre have, and the symbol tells an energy
 /// from a torque.
 pub(crate) fn named_as_written(unit: &str, powers: Powers) -> Option<&'static str> {
-    let has_joule = unit.split([' ', '/', '*', '·', '⋅']).filter_map(table::find).any(|(unit, _)| unit.symbol == "J");
+    let has_joule =
+        unit.split([' ', '/', '*', '·', '⋅']).filter_map(unit_table::find).any(|(unit, _)| unit.symbol == "J");
     let name = if has_joule { OfEnergy::NAME } else { OfTorque::NAME };
     (powers == OfEnergy::POWERS).then_some(name)
 }

@@ -4,7 +4,7 @@ mod parts;
 mod plain;
 mod value;
 
-pub use parts::Part;
+pub use parts::LanguagePart;
 
 use std::collections::BTreeMap;
 use std::fmt::Write;

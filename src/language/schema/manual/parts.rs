@@ -11,7 +11,7 @@ use super::{Content, Language, Manual, description};
 
 /// A field or choice, and the places where it may stand.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Part {
+pub struct LanguagePart {
     /// Its name, as scenes write it.
     pub name: String,
     /// The paths of the values that may hold it, such as `bodies[..].shape: Capsule`.
@@ -25,15 +25,15 @@ pub struct Part {
 impl Language {
     /// All fields and choices of sections and entries. Those of one name and meaning are one part with several places. A type that several
     /// fields hold counts at the first of them.
-    pub fn parts(&self) -> Vec<Part> {
+    pub fn parts(&self) -> Vec<LanguagePart> {
         let mut walk = Walk { manual: Manual::new(self), seen: BTreeSet::new(), parts: Vec::new() };
         for section in self.sections.iter().chain([&self.repeat]) {
             match &section.content {
-                Content::Value(schema) => schema.iter().for_each(|schema| walk.value(&section.name, schema)),
+                Content::Value(schema) => walk.value(&section.name, schema),
                 Content::Entries(_, entries) => {
                     for entry in entries {
                         let place = format!("{}: {}", section.name, entry.name);
-                        entry.schema.iter().for_each(|schema| walk.value(&place, schema));
+                        walk.value(&place, &entry.schema);
                     }
                 }
             }
@@ -46,7 +46,7 @@ struct Walk<'a> {
     manual: Manual<'a>,
     /// The definitions that were visited.
     seen: BTreeSet<&'a str>,
-    parts: Vec<Part>,
+    parts: Vec<LanguagePart>,
 }
 
 impl<'a> Walk<'a> {
@@ -98,11 +98,13 @@ impl<'a> Walk<'a> {
     }
 
     fn add(&mut self, name: &str, place: &str, told: String, is_field: bool) {
-        let same = |part: &&mut Part| part.name == name && part.told == told && part.is_field == is_field;
+        let same = |part: &&mut LanguagePart| part.name == name && part.told == told && part.is_field == is_field;
         match self.parts.iter_mut().find(same) {
             Some(part) if part.places.iter().any(|other| other == place) => {}
             Some(part) => part.places.push(place.to_owned()),
-            None => self.parts.push(Part { name: name.to_owned(), places: vec![place.to_owned()], told, is_field }),
+            None => {
+                self.parts.push(LanguagePart { name: name.to_owned(), places: vec![place.to_owned()], told, is_field })
+            }
         }
     }
 }
