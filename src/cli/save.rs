@@ -17,11 +17,11 @@ use crate::tick::{Failure, Notes};
 /// Flags of snapshots.
 #[derive(Args, Clone, Debug)]
 pub(super) struct SnapshotFlags {
-    /// Save the run at a moment, to go on from there with --resume; may be given several times
+    /// Save the run at a moment, to go on from there with --resume. The flag may stand several times
     #[arg(long, value_name = "at=T:FILE", value_parser = saving)]
     save: Vec<Saving>,
-    /// Go on from a file that --save wrote in a run of the same scene with the same flags. Channels begin at that moment, the
-    /// card counts from the beginning of the first run, and no error is estimated
+    /// Go on from a file that --save wrote in a run of the same scene with the same flags. Channels begin at that moment. The
+    /// card counts from the beginning of the first run, and estimates no error
     #[arg(long, value_name = "FILE", conflicts_with_all = ["estimate", "rounding", "model", "reverse"])]
     resume: Option<PathBuf>,
 }

@@ -19,8 +19,8 @@ use super::say::say;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Explain {
-    /// A scene file or example:NAME, and a channel of it if that is meant; or the name of a section, entry, method, channel or
-    /// flag; or a word on the error card
+    /// A scene file or example:NAME, and perhaps a channel of it. Or the name of a section, entry, method, channel or flag. Or a
+    /// word on the error card
     #[arg(value_name = "SCENE|NAME", required = true)]
     what: Vec<String>,
     #[command(flatten)]
@@ -32,16 +32,16 @@ pub(super) struct Explain {
 
 const EXAMPLES: &str = "\
 Examples:
-  jostle explain example:tetris     its systems in order, who brought them, and how the time is shared out
-  jostle explain Drag               what a force, sensor, section or method is, with an example
-  jostle explain critical tick      what a word on the error card means
-  jostle explain kinetic            what a channel is, its unit, and the sensor that gives it
+  jostle explain example:tetris     its systems in order, with their plugins and their shares of the time
+  jostle explain Drag               the meaning of a force, sensor, section or method, with an example
+  jostle explain critical tick      the meaning of a word on the error card
+  jostle explain kinetic            the meaning of a channel, its unit, and the sensor that gives it
   jostle explain example:bounce elastic.position.y
-                                    the same of a channel of a scene
-  jostle explain threads            what a flag does, and which commands have it
+                                    the meaning of a channel of a scene
+  jostle explain threads            the meaning of a flag, and the commands that have it
 
-A scene is run twice: for half a second as it is, and for up to three seconds with a look at the clock around each stage. \
-Both runs begin at the start of the scene. The output says how much of it they covered.";
+The command runs a scene twice. The first run takes half a second. The second one takes up to three seconds, and reads the \
+clock around each stage. Both runs begin at the start of the scene. The output says how much of it they covered.";
 
 impl Explain {
     pub(super) fn execute(self) -> Exit {
