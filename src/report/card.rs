@@ -200,7 +200,7 @@ impl Card {
         let evidence = Evidence { world, card: &card };
         let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));
         let verdict = match failure.zip(why.as_ref()) {
-            Some((failure, why)) => format!("{DISTRUST}: the run went wrong: {failure}; {why}."),
+            Some((failure, why)) => format!("{DISTRUST}: the run went wrong: {failure}. {}.", crate::capital(why)),
             None => evidence.verdict(),
         };
         card.warnings.extend(missing);

@@ -12,7 +12,7 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
         .code(3)
         .says("error: boom.ron: the run went wrong: energy came out of nowhere, ")
         .says(" J were put in, most of it in ")
-        .says("help: the tick of 0.01 s is longer than the contacts can bear, 6.3246e-6 s, as `")
+        .says("help: the tick of 0.01 s is longer than the contacts can bear. The longest stable one was 6.3246e-6 s for `")
         .says(" s: try `--tick 5e-7` or finer\n")
         .says("Do not trust it: the run went wrong: ");
     let names = ["`first`", "`second`"];
@@ -29,8 +29,8 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
         .says("error: over.ron: the run went wrong: the ")
         .says(" of `ball` is infinite or NaN at t = 1.")
         .says(
-            "help: numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses \
-             near zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick 0.0025`\n",
+            "help: numbers grew beyond all bounds. Look for enormous speeds, forces, stiffnesses or sizes, and for masses near zero. \
+             Look for drag that stops a body within a tick, and for a plugin that does not book its work. Or try `--tick 0.0025`\n",
         );
 }
 

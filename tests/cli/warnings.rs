@@ -13,11 +13,11 @@ const BOUNCE: &str = r#"Scene(
     bodies: [(name: "ball", at: (0, 0.3), material: "rubber", atoms: Disc(radius: 0.1, mass: 1))],
 )"#;
 
-const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks: below 10 its impact is not \
-                     resolved; use --tick ";
-const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s that the contacts of `ball` had at t = ";
-const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s and may have passed \
-                   through others unseen; use --tick ";
+const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks. The run does not resolve an impact of \
+                     fewer than 10. Use --tick ";
+const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s. The contacts of `ball` set it at t = ";
+const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s. It may have passed through \
+                   others unseen. Use --tick ";
 
 /// Runs with a tick; the warning is told in a line, and as a note in the JSON.
 #[track_caller]

@@ -325,13 +325,13 @@ impl Model for DriveForce {
         let shares = clock_of_whole_ticks(state, mode).and_then(|clock| self.course.lost_and_gained(&clock));
         let Some((lost, gained)) = shares else { return Vec::new() };
         let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
-        let shares: Vec<String> = shares.map(|(share, what)| format!("{} {what}", percent(share))).collect();
+        let shares: Vec<String> = shares.map(|(share, what)| format!("{what} {}", percent(share))).collect();
         if shares.is_empty() {
             return Vec::new();
         }
         let (path, shares) = (&self.path, shares.join(" and "));
         let what = format!(
-            "points of the course of `{path}` lie between ticks, which do not see them: of its impulse {shares}"
+            "points of the course of `{path}` lie between ticks, which do not see them. Of its impulse, the run {shares}"
         );
         vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
     }

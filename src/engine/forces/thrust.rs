@@ -185,17 +185,17 @@ impl ThrustForce {
             to => format!("from {} s to {} s", at(self.from), at(to)),
         };
         let came = match share {
-            -1.0 => "does not act at all: its whole impulse is lost".to_owned(),
+            -1.0 => "does not act at all. Its whole impulse is lost".to_owned(),
             _ => {
                 let impulse = match share {
                     share if share <= -5e-4 => format!("{} of its impulse is lost", percent(-share)),
                     share if share >= 5e-4 => format!("its impulse is {} too large", percent(share)),
-                    _ => "its impulse is right, but not its time".to_owned(),
+                    _ => "its impulse is right, but its time is not".to_owned(),
                 };
                 format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
             }
         };
-        let what = format!("`{}` is to act {times}, but acts in whole ticks and {came}", self.path);
+        let what = format!("the scene asks `{}` to act {times}. In whole ticks it {came}", self.path);
         Some(Departure { what, remedy: REMEDY, share: share.abs() })
     }
 

@@ -222,7 +222,7 @@ fn readings<'a>(cases: impl Iterator<Item = &'a Judged>, wanted: impl Fn(Judgeme
 fn problem(sheet: &Sheet, peers: &Peers, picture: Option<Picture>, blocks: &mut Vec<Block>) {
     let problem = &sheet.problem;
     blocks.push(Block::Heading(2, problem.name.to_owned()));
-    let mut text = format!("{}. Source: {}.", capital(problem.law), problem.source);
+    let mut text = format!("{}. Source: {}.", crate::capital(problem.law), problem.source);
     if let Some(hash) = &sheet.hash {
         text.push_str(&format!(" State hash of `Auto` at a tick of {} s: `{hash}`.", rounded(problem.tick)));
     }
@@ -261,7 +261,3 @@ fn three(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
 }
 
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
-}
