@@ -102,7 +102,7 @@ impl Check {
         let exit = result::tell(request, &ran, Detail::of(self.json, true));
         if exit == Exit::Good && !self.json && !self.quiet {
             let holding = match simulation.outcomes().len() {
-                0 => "nothing is expected".to_owned(),
+                0 => "it has no expectations".to_owned(),
                 many => count(many, "expectation holds", "expectations hold"),
             };
             return print_line(&format!("{}: good; {}; {holding}", request.name, contents(&simulation)));

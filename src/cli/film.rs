@@ -156,7 +156,7 @@ impl Order<'_> {
             let (width, height) = size;
             say(&format!(
                 "raw pictures: {width} x {height} pixels, {frames_per_second} frames per second, 4 bytes each pixel (red, \
-                 green, blue, 255); to watch them: ffplay -f rawvideo -pixel_format rgba -video_size {width}x{height} \
+                 green, blue, 255). To watch them: ffplay -f rawvideo -pixel_format rgba -video_size {width}x{height} \
                  -framerate {frames_per_second} FILE"
             ));
         }
@@ -184,8 +184,7 @@ impl Order<'_> {
 
     fn refuse_spool(&self, error: &io::Error) -> Exit {
         self.request.usage(&format!(
-            "the frames could not be kept aside in `{}`: {error}; free some space there, or set TMPDIR to another \
-             directory",
+            "the program could not keep the frames in `{}`: {error}. Free some space there, or set TMPDIR to another directory",
             Spool::folder().display()
         ))
     }

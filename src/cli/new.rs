@@ -163,7 +163,7 @@ fn built_from() -> Result<PathBuf, String> {
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR"));
     match checkout.join("Cargo.toml").is_file() {
         true => Ok(checkout.to_owned()),
-        false => Err("a plugin is built against a checkout of Jostle: name its folder with --jostle PATH".to_owned()),
+        false => Err("a plugin needs a checkout of Jostle: name its folder with --jostle PATH".to_owned()),
     }
 }
 
@@ -194,7 +194,7 @@ fn refusal(path: &Path, error: &std::io::Error) -> String {
     let shown = path.display();
     match error.kind() {
         ErrorKind::AlreadyExists => {
-            format!("`{shown}` is there already, and nothing is overwritten: take another name")
+            format!("`{shown}` exists already, and the command overwrites no file: take another name")
         }
         _ => format!("`{shown}` cannot be written: {error}"),
     }

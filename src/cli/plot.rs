@@ -159,7 +159,7 @@ impl PlotCommand {
         let end = simulation.ticks() as f64 * simulation.clock().dt;
         let sampler = Sampler::new(&mut simulation, &entries, 0.0, end);
         let mut sampler = sampler.map_err(|Missing { channel, .. }| {
-            let help = "walls have `force` and `contacts`, bodies `position`, `velocity`, `angle` and `spin` too";
+            let help = "walls have `force` and `contacts`, and bodies also have `position`, `velocity`, `angle` and `spin`";
             request.refuse(Exit::Usage, "--channels", &format!("there is no channel {channel:?}"), help)
         })?;
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet);
@@ -272,7 +272,7 @@ impl PlotCommand {
                 let (name, unit) = (&column.name, &column.unit);
                 let what = with_unit(name, unit);
                 say(&format!(
-                    "note: {what}: {wild} of {all} cells hold no finite number, and the figure leaves them out"
+                    "note: {what}: {wild} of {all} cells are empty, NaN or infinite, and the figure leaves them out"
                 ));
             }
         }

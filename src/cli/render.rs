@@ -200,6 +200,6 @@ fn report(written: &Written, cut: bool) {
     }
     if *left_over > 0 {
         let pictures = in_words(*left_over as usize, "picture", "pictures");
-        say(&format!("note: after them still stand {pictures} of an earlier, longer sequence"));
+        say(&format!("note: {pictures} of an earlier, longer sequence stand behind them"));
     }
 }

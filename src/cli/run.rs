@@ -119,7 +119,7 @@ impl Run {
         let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.is_empty());
         if self.output.is_some() && !measures {
             say(
-                "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
+                "note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others",
             );
         }
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };

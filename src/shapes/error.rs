@@ -24,11 +24,11 @@ pub enum Mended {
 impl fmt::Display for Mended {
     fn fmt(&self, text: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::Turned => write!(text, "the points ran clockwise: their order is turned round"),
+            Self::Turned => write!(text, "the points ran clockwise, and the engine reversed their order"),
             Self::Straight { point } => {
-                write!(text, "point {point} lies on the line through its neighbours: it is left out")
+                write!(text, "point {point} lies on the line through its neighbours, and the engine left it out")
             }
-            Self::Cut { parts } => write!(text, "the shape is concave: it is cut into {parts} convex parts"),
+            Self::Cut { parts } => write!(text, "the shape is concave, and the engine cut it into {parts} convex parts"),
         }
     }
 }

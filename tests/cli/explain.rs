@@ -109,7 +109,7 @@ fn a_long_run_is_told_as_far_as_it_was_looked_at() {
     let ended = folder.jostle("explain fall.ron --duration 1e6").code(0);
     assert!(ended.out.contains("mean of the first ") && ended.out.contains(" of 1000000 s"), "{}", ended.out);
     assert!(ended.out.contains("The first tenth of these ticks took "), "{}", ended.out);
-    assert!(ended.out.contains("Later ticks were not looked at, and may cost more or less"), "{}", ended.out);
+    assert!(ended.out.contains("Later ticks may cost more or less"), "{}", ended.out);
     let [json] = &folder.jostle("explain fall.ron --duration 1e6 --json").code(0).json()[..] else {
         panic!("one line")
     };

@@ -11,7 +11,7 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
         .jostle("run boom.ron")
         .code(3)
         .says("error: boom.ron: the run went wrong: energy came out of nowhere, ")
-        .says(" J were put in, most of it in ")
+        .says(" J that were put in, most of it in ")
         .says("help: the tick of 0.01 s is longer than the contacts can bear. The longest stable one was 6.3246e-6 s for `")
         .says(" s: try `--tick 5e-7` or finer\n")
         .says("Do not trust it: the run went wrong: ");

@@ -183,7 +183,7 @@ fn less_restitution_than_can_be_converted_is_said_on_the_card() {
         let ratio = ratio_of(LEAST_RESTITUTION);
         assert_near("restitution", found.restitution, LEAST_RESTITUTION, bound(METHODS[1], ratio, step));
         let told =
-            |note: &String| note.contains("Dashpot cannot give the restitution") && note.contains("0.01 is used");
+            |note: &String| note.contains("Dashpot cannot give the restitution") && note.contains("and gives 0.01");
         assert!(found.card.notes.iter().any(told), "{:?}", found.card.notes);
     }
 }

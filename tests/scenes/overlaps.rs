@@ -36,8 +36,8 @@ fn the_deepest_overlap_is_told_with_names_and_remedy() {
     assert_eq!(
         notes(&pair),
         [
-            "at the start `a` and `b` overlap by 0.25 m, 50 % of the smaller radius: their contacts begin compressed and push \
-             bodies apart that no load holds; if that is not meant, move them apart, make them smaller, or give them `collides: false`"
+            "at the start `a` and `b` overlap by 0.25 m, 50 % of the smaller radius. Their compressed contacts push bodies apart, \
+             unless a load presses them together. To prevent it, move them apart, make them smaller, or give them `collides: false`"
         ]
     );
     // A clump is one body however many of its atoms overlap, and a wall counts as well.

@@ -143,7 +143,7 @@ impl Anatomy {
             row("failed", failure);
         }
         let width = self.named.iter().map(|named| named.name.len()).max().unwrap_or(0);
-        let _ = writeln!(text, "\nWhat it names, and the module that reads it:");
+        let _ = writeln!(text, "\nThe names in the scene, and the modules that read them:");
         for Named { name, from } in &self.named {
             let _ = writeln!(text, "  {name:<width$}  {from}");
         }
@@ -167,11 +167,11 @@ impl Anatomy {
         if self.ticks < self.all_ticks && self.failure.is_none() {
             let _ = writeln!(
                 text,
-                "  Later ticks were not looked at, and may cost more or less: `jostle run` takes them all."
+                "  Later ticks may cost more or less: `jostle run` takes them all."
             );
         }
         if let Some((search, lasted)) = self.search {
-            let _ = writeln!(text, "  Pairs are found by {search}; a list lasted {lasted:.0} evaluations in the mean.");
+            let _ = writeln!(text, "  The search for pairs is {search}. A list lasted {lasted:.0} evaluations in the mean.");
         }
         let _ = writeln!(text, "  {:<20}{:>7}{:>12}   systems, in order", "stage", "share", "us");
         for Stage { name, share, systems } in &self.parts {
@@ -185,7 +185,7 @@ impl Anatomy {
         }
         let _ = writeln!(
             text,
-            "Looking at the clock around each stage made the ticks {:.0} % slower; the shares are those of that run.",
+            "Looking at the clock around each stage made the ticks {:.0} % slower. The shares are those of that run.",
             self.slower * 100.0
         );
         text

@@ -170,13 +170,13 @@ impl Measure {
         if exit == Exit::RunWrong {
             say(&match &measured.reference {
                 Err(NoReference::Failed(failure)) => format!(
-                    "error: the reference run goes wrong: {failure}; without it no error is known. Softer contacts, heavier bodies or weaker \
-                     forces help; `jostle run {}` tells more",
+                    "error: the reference run goes wrong: {failure}. Without it no error is known. Softer contacts, heavier \
+                     bodies or weaker forces help. `jostle run {}` tells more",
                     self.scene
                 ),
                 _ => format!(
-                    "error: no setting comes to the end of the scene; softer contacts, heavier bodies or a larger --budget for \
-                     shorter ticks help; `jostle run {}` tells more",
+                    "error: no setting comes to the end of the scene. Softer contacts, heavier bodies or a larger --budget \
+                     for shorter ticks help. `jostle run {}` tells more",
                     self.scene
                 ),
             });
@@ -207,19 +207,19 @@ impl Measure {
             NoReference::Still => request.refuse(
                 Exit::SceneWrong,
                 "bodies",
-                "nothing moves, so there is nothing to measure: errors are shares of the motion",
+                "all bodies rest, and errors are shares of the motion",
                 "give a body a velocity or a force, or measure a longer run with --duration",
             ),
             NoReference::Short(needed) => {
                 let needed = number(format!("{needed:.0e}").parse().unwrap_or(*needed));
                 let message = format!("--budget {} s is too short for the reference run", number(self.budget));
-                let help = format!("about {needed} s are needed: --budget {needed}, or a shorter run with --duration");
+                let help = format!("it needs about {needed} s: --budget {needed}, or a shorter run with --duration");
                 request.refuse(Exit::Usage, "", &message, &help)
             }
             NoReference::Parts => request.refuse(
                 Exit::RunWrong,
                 "",
-                "reference runs with different steps part before anything can be compared: no place of a body is known",
+                "reference runs with different steps go apart before the first moment of comparison: no place of a body is known",
                 "a shorter run with --duration and closer moments, or a larger --budget for finer steps",
             ),
             NoReference::Failed(failure) => request.refuse(

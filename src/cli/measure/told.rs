@@ -111,7 +111,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
         Ok(reference) => {
             let _ = writeln!(
                 text,
-                "Reference: {}; its own error is about {:.0e} at most, and no error below {:.0e} is claimed.",
+                "Reference: {}. Its own error is about {:.0e} at most, so the table claims no error below {:.0e}.",
                 reference.words,
                 reference.floor,
                 reference.claim()
@@ -127,7 +127,8 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
             if let Some(scatter) = &reference.scatter {
                 let _ = writeln!(
                     text,
-                    "Beyond, means over time and all bodies are compared. Reference runs differ there by {}: chaos, not error.",
+                    "For the rest, the table compares means over time and all bodies. There, reference runs differ by {}: \
+                     chaos, not error.",
                     scatter.words()
                 );
             }
@@ -135,7 +136,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
                 let _ = writeln!(text, "warning: {warning}");
             }
         }
-        Err(_) => text.push_str("Reference: none; no errors are known.\n"),
+        Err(_) => text.push_str("Reference: none. No errors are known.\n"),
     }
     let advice = measured.settings.advice();
     if measured.reference.is_ok() {

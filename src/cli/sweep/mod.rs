@@ -157,7 +157,7 @@ impl Sweep {
         let taken = record.rows.len();
         if taken > 0 && !self.quiet {
             let taken = count(taken, "run is", "runs are");
-            say(&format!("note: {taken} there already: the sweep goes on where it was interrupted"));
+            say(&format!("note: {taken} there already, and the sweep makes only the others"));
         }
         let (attempts, mut exit) = self.run_all(&source, &grid, &left, folder, sheet, &mut record);
         let seconds = start.elapsed().as_secs_f64();
@@ -186,9 +186,9 @@ impl Sweep {
             if sheet && attempts.iter().any(|attempt| attempt.picture.is_some()) {
                 say(&format!("{}: the last moment of each run", image.display()));
             } else if !self.no_sheet && taken > 0 {
-                say("note: no contact sheet, as some runs were there already: the same command once more makes it");
+                say("note: there is no contact sheet, as some runs were there already. The same command once more makes it");
             } else if !self.no_sheet && !sheet {
-                say(&format!("note: no contact sheet of more than {} runs", contact_sheet::MOST_PICTURES));
+                say(&format!("note: a contact sheet shows at most {} runs, so there is none", contact_sheet::MOST_PICTURES));
             }
         }
         Ok(exit)
@@ -282,7 +282,7 @@ impl Sweep {
                     && let Err(message) = record.add(&Row::of(run + 1, owned(grid, run), &attempt))
                 {
                     recorded = false;
-                    progress.aside(|| say(&format!("note: {message}; if the sweep is interrupted, it begins anew")));
+                    progress.aside(|| say(&format!("note: {message}. If you interrupt the sweep, it begins anew")));
                 }
                 if self.json {
                     exit = exit.worse(print_line(&json(grid, run, &attempt).to_string()));

@@ -123,7 +123,7 @@ fn aim_bodies(world: &mut World) {
                 let DVec2 { x, y } = shot.velocity;
                 let angle = number(libm::atan2(y, x).to_degrees());
                 let (name, time) = (&aim.name, number(shot.time));
-                notes.push(format!("`{name}` is thrown at {angle} deg and reaches its aim at t = {time} s"));
+                notes.push(format!("`{name}` starts at {angle} deg and reaches its aim at t = {time} s"));
             }
             Err(error) => errors.push(*error),
         }

@@ -74,7 +74,7 @@ pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut D
         outline.require(Kind::BODY, b, "b", report);
         if a == b {
             let help = "name two bodies, or hold one to the world with `b: World`";
-            report.error("b", format!("both ends are on \"{a}\": nothing would be moved")).help(help);
+            report.error("b", format!("both ends are on \"{a}\": the force would move no body")).help(help);
         }
     }
 }

@@ -92,7 +92,7 @@ impl Section for ClockSection {
             report
                 .error(
                     "tolerance",
-                    "both a `tick` and a `tolerance` are given, but a tolerance chooses the steps itself",
+                    "`tick` and `tolerance` exclude each other: a tolerance chooses the steps itself",
                 )
                 .help("leave out one of the two");
         } else if self.method.0 == Self::REFERENCE {

@@ -38,7 +38,7 @@ impl Entry for GearPair {
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("ratio", self.ratio) && self.ratio.si() == 0.0 {
-            report.error("ratio", "nothing would be coupled").help("give `ratio` a value that is not zero");
+            report.error("ratio", "the gears would couple no motion").help("give `ratio` a value that is not zero");
         }
     }
 

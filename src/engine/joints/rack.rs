@@ -39,7 +39,7 @@ impl Entry for Rack {
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("radius", self.radius) && self.radius.si() == 0.0 {
-            report.error("radius", "nothing would be coupled").help("give `radius` a value that is not zero");
+            report.error("radius", "the rack would couple no motion").help("give `radius` a value that is not zero");
         }
     }
 

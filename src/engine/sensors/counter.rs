@@ -86,7 +86,7 @@ impl Entry for Counter {
         let help = "`touching: \"pin_*\"` counts contacts, `gate: ((-0.1, 0), (0.1, 0))` passages";
         match (&self.touching, &self.gate) {
             (Some(_), Some(_)) => {
-                report.error("gate", "`touching` and `gate` cannot both be given").help(help);
+                report.error("gate", "`touching` and `gate` exclude each other").help(help);
             }
             (None, None) => {
                 report.error("", "the field `touching` or `gate` is missing").help(help);

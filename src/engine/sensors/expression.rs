@@ -69,7 +69,7 @@ impl Entry for Expression {
         match Formula::new(self.of.as_str()).names() {
             Ok(names) if names.is_empty() => {
                 let help = "name a channel in it, such as `ball.position.x`";
-                report.error("of", "there is no channel in this expression: its value would never change").help(help);
+                report.error("of", "this expression names no channel: its value would never change").help(help);
             }
             Ok(names) => names.iter().collect::<BTreeSet<_>>().into_iter().for_each(|name| {
                 check_channel(name, "of", outline, report);

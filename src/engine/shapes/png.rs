@@ -66,7 +66,7 @@ impl Png {
             }
             if self.count.is_some() == self.radius.is_some() {
                 let message = if self.count.is_some() {
-                    "`count` and `radius` cannot both be given"
+                    "`count` and `radius` exclude each other"
                 } else {
                     "the field `count` or `radius` is missing"
                 };

@@ -396,7 +396,7 @@ fn look_at_frames(world: &mut World) {
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
     expectations.look_at_all_ticks();
     if expectations.sample() {
-        let note = format!("expectations look every {spacing} s, at each frame: they do not see the time between");
+        let note = format!("expectations look every {spacing} s, at each frame. They do not see the time between");
         world.resource_mut::<Notes>().0.push(note);
     }
 }

@@ -197,13 +197,13 @@ impl Simulation {
         let of = &snapshot.header;
         if of.version != version {
             return Err(Unfit(format!(
-                "the snapshot was written by version {}, this is version {version}",
+                "version {} wrote the snapshot, and this is version {version}",
                 of.version
             )));
         }
         if of.scene != scene {
             return Err(Unfit(
-                "the snapshot is of another scene, or of this one before it was changed, be it a comment".to_owned(),
+                "the snapshot is of another scene, or of another text of this one, be it only a comment".to_owned(),
             ));
         }
         if of.plan != plan {
@@ -211,8 +211,8 @@ impl Simulation {
             let (theirs, own) = (words(&of.plan), words(&plan));
             return Err(Unfit(if theirs == own {
                 format!(
-                    "both runs go by {own}, but with other steps inside them: a tolerance chooses these from the whole run, so give both \
-                     runs the same tolerance and duration"
+                    "both runs go by {own}, but with other steps inside them. A tolerance chooses these from the whole run: \
+                     give both runs the same tolerance and duration"
                 )
             } else {
                 format!("the snapshot's run goes by {theirs}, this one by {own}")

@@ -287,7 +287,7 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
         report.between("inelasticity", inelasticity, 0.0, 1.0);
     }
     if restitution.is_some() && inelasticity.is_some() {
-        let message = "`restitution` and `inelasticity` say the same thing; only one of them may stand";
+        let message = "`restitution` and `inelasticity` say the same: write one of them";
         report.error("inelasticity", message).help("remove one of the two");
     }
 }

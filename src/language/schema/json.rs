@@ -127,7 +127,7 @@ impl Section {
     fn json(&self, language: &Language) -> Value {
         match &self.content {
             Content::Value(Some(schema)) => schema.clone(),
-            Content::Value(None) => json!({ "description": "No fields are told." }),
+            Content::Value(None) => json!({ "description": "It has no described fields." }),
             Content::Entries(arity, entries) => {
                 let one = one_of_the(entries);
                 match arity {

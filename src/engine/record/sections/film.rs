@@ -78,7 +78,7 @@ impl FreezeEntry {
             }
             (Some(_), Some(_)) => {
                 let help = "leave out `at` to wait for the contact, or `touch` to give the time";
-                report.error("", "`at` and `touch` cannot both be given").help(help);
+                report.error("", "`at` and `touch` exclude each other").help(help);
             }
             (None, None) => {
                 let help = "add `at: 1.5` (s of physics) or `touch: (\"ball\", \"floor\")`";

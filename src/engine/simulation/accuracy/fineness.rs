@@ -37,8 +37,8 @@ const MOST_OF_A_RUN: f64 = 1e10;
 
 fn endless(duration: f64, evaluations: f64) -> SceneError {
     let message = format!(
-        "these {} s would be run several times to find steps that keep the tolerance, with {evaluations:.0e} evaluations of all \
-         forces each: that takes more than hours",
+        "the search for steps that keep the tolerance runs these {} s several times. Each run takes {evaluations:.0e} \
+         evaluations of all forces, which is more than hours",
         number(duration)
     );
     SceneError::new("clock.duration", message)
@@ -202,7 +202,7 @@ impl<'a> Trials<'a> {
 
     /// The cost of the trials, in words.
     pub fn cost(&self) -> String {
-        format!("{} runs before this one, with {} evaluations of all forces, found that", self.count, self.evaluations)
+        format!("{} runs before this one, with {} evaluations of all forces, found these steps", self.count, self.evaluations)
     }
 
     /// How far bodies go in m, and how fast in m/s; one, where nothing moves.

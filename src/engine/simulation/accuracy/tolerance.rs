@@ -172,8 +172,8 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDist
     let mut plan = trials.planned(fineness);
     let (distance, speed) = trials.sizes();
     plan.notes.push(format!(
-        "tolerance {}: {}; bodies go as far as {} m and are as fast as {} m/s, and the run is expected to be within {} m of \
-         the exact places and within {} m/s of the exact velocities",
+        "tolerance {}: {}. Bodies go as far as {} m and are as fast as {} m/s. The expected error of places is {} m, that of \
+         velocities {} m/s",
         number(tolerance),
         trials.words(&plan),
         number(distance),
@@ -191,7 +191,8 @@ fn bounded(farthest: f64, distance: f64) -> String {
     if farthest > FAR * distance {
         let (farthest, distance) = (number(farthest), number(distance));
         format!(
-            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m; move the scene to the origin"
+            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m. Move \
+             the scene to the origin"
         )
     } else {
         "rounding leaves no smaller steps, and the motion magnifies it".to_owned()

@@ -165,9 +165,9 @@ impl Section for FillSection {
                     100.0 * share,
                 );
                 let narrow =
-                    if share < SPARSE { ". So little is hard to meet by chance: use a wider region" } else { "" };
+                    if share < SPARSE { ". Chance hardly meets so narrow a region: use a wider one" } else { "" };
                 let help = format!(
-                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the \
+                    "a larger `within`, a smaller `count` or smaller {smaller} would fit. Chance fills about half the \
                      area{narrow}"
                 );
                 report.error(&format!("[{index}].count"), message).help(help);

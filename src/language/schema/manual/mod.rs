@@ -181,7 +181,7 @@ impl<'a> Manual<'a> {
         self.paragraph(meaning);
         self.example(section.example);
         match &section.content {
-            Content::Value(None) => self.paragraph("No fields are told."),
+            Content::Value(None) => self.paragraph("It has no described fields."),
             Content::Value(Some(schema)) => {
                 if let (Some(name), _) = self.language.resolve(schema) {
                     self.places.insert(name, section.name.clone());
@@ -209,7 +209,7 @@ impl<'a> Manual<'a> {
         self.paragraph(&format!("### `{section}: {}`", entry.name));
         let Some(schema) = &entry.schema else {
             self.example(entry.example);
-            return self.paragraph("No fields are told.");
+            return self.paragraph("It has no described fields.");
         };
         let (_, about) = self.language.resolve(schema);
         self.paragraph(meaning_of(about));

@@ -15,7 +15,7 @@ impl Language {
             }
             (Some(_), Content::Value(_)) => return None,
         };
-        let Some(schema) = schema else { return Some("No fields are told.".to_owned()) };
+        let Some(schema) = schema else { return Some("It has no described fields.".to_owned()) };
         let manual = Manual::new(self);
         let (_, whole) = self.resolve(schema);
         let mut told = meaning_of(if schema["description"].is_null() { whole } else { schema }).to_owned();
