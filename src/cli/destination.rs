@@ -133,8 +133,7 @@ impl Wish<'_> {
         }
         if self.still.is_none() && picture {
             return Err(
-                "a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3, or write a film to a .gif \
-                        or .apng"
+                "a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3. Or write a film to a .gif or .apng"
                     .to_owned(),
             );
         }

@@ -159,7 +159,8 @@ impl PlotCommand {
         let end = simulation.ticks() as f64 * simulation.clock().dt;
         let sampler = Sampler::new(&mut simulation, &entries, 0.0, end);
         let mut sampler = sampler.map_err(|Missing { channel, .. }| {
-            let help = "walls have `force` and `contacts`, and bodies also have `position`, `velocity`, `angle` and `spin`";
+            let help =
+                "walls have `force` and `contacts`, and bodies also have `position`, `velocity`, `angle` and `spin`";
             request.refuse(Exit::Usage, "--channels", &format!("there is no channel {channel:?}"), help)
         })?;
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet);

@@ -118,9 +118,7 @@ impl Run {
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.is_empty());
         if self.output.is_some() && !measures {
-            say(
-                "note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others",
-            );
+            say("note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others");
         }
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {

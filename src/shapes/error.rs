@@ -28,7 +28,9 @@ impl fmt::Display for Mended {
             Self::Straight { point } => {
                 write!(text, "point {point} lies on the line through its neighbours, and the engine left it out")
             }
-            Self::Cut { parts } => write!(text, "the shape is concave, and the engine cut it into {parts} convex parts"),
+            Self::Cut { parts } => {
+                write!(text, "the shape is concave, and the engine cut it into {parts} convex parts")
+            }
         }
     }
 }

@@ -73,7 +73,11 @@ fn what_was_not_run_again_is_not_trusted() {
         bodies: [(name: "mass", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
         forces: [Spring(a: "mass", b: World, stiffness: 100, length: 0)])"#;
     let folder = Folder::new("estimate_long").with("spring.ron", spring);
-    folder.jostle("run spring.ron").code(0).says("Trust energy (").says("Use `--estimate`, which runs it all again");
+    folder
+        .jostle("run spring.ron")
+        .code(0)
+        .says("Trust energy (")
+        .says("Use `--estimate`, which repeats the whole run");
     let card = folder.jostle("run spring.ron --json").code(0).json().remove(0)["card"].clone();
     assert!(card["error"]["horizon"].as_f64().is_some_and(|until| until < 50.0), "{card}");
     folder.jostle("run spring.ron --estimate").code(0).says("Trust it: places to about ");

@@ -69,8 +69,7 @@ fn a_film_stands_still_at_a_contact() {
 fn a_contact_that_does_not_begin_is_noted() {
     let scene = DROP.replace("film: (", r#"film: (to: 0.3, freeze: [(touch: ("ball", "floor"), for: 0.5)], "#);
     let folder = Folder::new("untouched").with("drop.ron", scene);
-    let note =
-        "note: film.freeze[0]: `ball` and `floor` do not begin to touch in the film, so it does not stop there";
+    let note = "note: film.freeze[0]: `ball` and `floor` do not begin to touch in the film, so it does not stop there";
     folder.jostle("render drop.ron").code(0).says(note).says("drop.gif: 6 frames");
     let late = DROP.replace("film: (", "film: (freeze: [(at: 3, for: 0.5)], ");
     let folder = Folder::new("late_freeze").with("drop.ron", late);
@@ -162,7 +161,7 @@ fn a_film_is_fitted_into_a_size() {
     }
     let folder = folder.with("film.gif", "old");
     let ended = folder.jostle(&format!("{render} -o film.gif --max-size 1kB")).code(2);
-    assert!(ended.err.contains("error: the film does not fit into 1 kB: even at an eighth of its size"), "{ended:?}");
+    assert!(ended.err.contains("error: the film does not fit into 1 kB. At an eighth of its size"), "{ended:?}");
     assert_eq!(folder.read("film.gif"), b"old");
     assert_eq!(folder.names(), ["film.gif", "other.gif", "plain.gif", "roomy.gif"]);
 }

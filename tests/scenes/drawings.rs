@@ -72,7 +72,9 @@ fn what_a_drawing_became_is_noted() {
         Simulation::load(&scene(&folder, "Svg(file: \"part.svg\", unit: 0.1, tolerance: \"1 mm\")")).unwrap();
     let note = simulation.header().remarks.iter().find(|note| note.starts_with("part.svg: ")).expect("a note");
     // Half a round with a radius of 0.1 m needs 12 chords: its area is less by the share 1.1 % of a tenth of it.
-    for words in ["1 outline of", "convex part", "within 0.001 m of the curves", "% of the area is lost", "Not read: text"] {
+    for words in
+        ["1 outline of", "convex part", "within 0.001 m of the curves", "% of the area is lost", "Not read: text"]
+    {
         assert!(note.contains(words), "{note}");
     }
 }

@@ -44,8 +44,7 @@ fn the_deepest_overlap_is_told_with_names_and_remedy() {
     let more = "(name: \"clump\", at: (1, 6.5), atoms: Picture(spacing: 2, rows: [\"##\"])),
         (name: \"under\", at: (1, 4.75), atoms: Picture(spacing: 2, rows: [\"##\"]))], walls: [(name: \"wall\", left: (0, 7.25), right: (9, 7.25))]";
     let [note] = &notes(&pair.replace(']', more))[..] else { panic!("one note") };
-    let begins =
-        "at the start 3 pairs overlap by more than 5 % of the smaller radius, deepest `a` and `b` by 0.25 m (50 %): ";
+    let begins = "at the start 3 pairs overlap by more than 5 % of the smaller radius. The deepest are `a` and `b` by 0.25 m (50 %). ";
     assert!(note.starts_with(begins), "{note}");
 }
 

@@ -165,13 +165,13 @@ impl Anatomy {
             let _ = writeln!(text, "  The first tenth of these ticks took {first} us each, the last tenth {last} us.");
         }
         if self.ticks < self.all_ticks && self.failure.is_none() {
-            let _ = writeln!(
-                text,
-                "  Later ticks may cost more or less: `jostle run` takes them all."
-            );
+            let _ = writeln!(text, "  Later ticks may cost more or less: `jostle run` takes them all.");
         }
         if let Some((search, lasted)) = self.search {
-            let _ = writeln!(text, "  The search for pairs is {search}. A list lasted {lasted:.0} evaluations in the mean.");
+            let _ = writeln!(
+                text,
+                "  The search for pairs is {search}. A list lasted {lasted:.0} evaluations in the mean."
+            );
         }
         let _ = writeln!(text, "  {:<20}{:>7}{:>12}   systems, in order", "stage", "share", "us");
         for Stage { name, share, systems } in &self.parts {

@@ -95,7 +95,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
             ]
         }),
     );
-    text.push_str("\nWhere the ladder of ticks ends:\n");
+    text.push_str("\nThe end of the ladder of ticks:\n");
     let ends = measured.settings.ends.iter().map(|(course, why)| vec![course.method.to_owned(), why.clone()]);
     let ends = aligned(&["method", ""], ends);
     text.push_str(ends.split_once('\n').map_or("", |(_, rest)| rest));

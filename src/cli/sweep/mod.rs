@@ -186,9 +186,14 @@ impl Sweep {
             if sheet && attempts.iter().any(|attempt| attempt.picture.is_some()) {
                 say(&format!("{}: the last moment of each run", image.display()));
             } else if !self.no_sheet && taken > 0 {
-                say("note: there is no contact sheet, as some runs were there already. The same command once more makes it");
+                say(
+                    "note: there is no contact sheet, as some runs were there already. The same command once more makes it",
+                );
             } else if !self.no_sheet && !sheet {
-                say(&format!("note: a contact sheet shows at most {} runs, so there is none", contact_sheet::MOST_PICTURES));
+                say(&format!(
+                    "note: a contact sheet shows at most {} runs, so there is none",
+                    contact_sheet::MOST_PICTURES
+                ));
             }
         }
         Ok(exit)

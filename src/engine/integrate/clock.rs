@@ -90,10 +90,7 @@ impl Section for ClockSection {
         }
         if self.tick.is_some() {
             report
-                .error(
-                    "tolerance",
-                    "`tick` and `tolerance` exclude each other: a tolerance chooses the steps itself",
-                )
+                .error("tolerance", "`tick` and `tolerance` exclude each other: a tolerance chooses the steps itself")
                 .help("leave out one of the two");
         } else if self.method.0 == Self::REFERENCE {
             report

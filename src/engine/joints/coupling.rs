@@ -306,8 +306,7 @@ impl Model for Coupling {
         match self.held(bodies) {
             Some(Ok(row)) => self.offset = row.gap,
             Some(Err(count)) => {
-                let help =
-                    "hold the frame of both joints to the world, or let it be a body that is fixed or has a path";
+                let help = "hold the frame of both joints to the world, or to a body that is fixed or has a path";
                 let message = format!("its joints move {count} bodies together: only two can be coupled so far");
                 self.refuse(world, message, help);
             }

@@ -370,8 +370,11 @@ impl Model for Joint {
         if !(first && state.rows().is_dependent()) {
             return remarks;
         }
-        remarks.push("some joints repeat constraints of others. The motion is exact, but forces may share the load in many \
-        ways. The engine takes the forces of least norm".to_owned());
+        remarks.push(
+            "some joints repeat constraints of others. The motion is exact, but forces may share the load in many \
+        ways. The engine takes the forces of least norm"
+                .to_owned(),
+        );
         remarks
     }
 

@@ -196,10 +196,7 @@ impl Simulation {
         let Header { version, scene, plan, systems, .. } = self.identity();
         let of = &snapshot.header;
         if of.version != version {
-            return Err(Unfit(format!(
-                "version {} wrote the snapshot, and this is version {version}",
-                of.version
-            )));
+            return Err(Unfit(format!("version {} wrote the snapshot, and this is version {version}", of.version)));
         }
         if of.scene != scene {
             return Err(Unfit(

@@ -105,7 +105,12 @@ impl fmt::Display for OutputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             OutputError::UnknownFormat { path, known } => {
-                write!(f, "`{}` has no ending of a known format. Known endings are {}", path.display(), known.join(", "))
+                write!(
+                    f,
+                    "`{}` has no ending of a known format. Known endings are {}",
+                    path.display(),
+                    known.join(", ")
+                )
             }
             OutputError::Size { width, height, longest: 0 } => {
                 write!(f, "a picture of {width} x {height} pixels cannot be made; both sides need at least one pixel")?;

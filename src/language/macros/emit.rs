@@ -402,8 +402,9 @@ impl Expander {
         let is_pattern = text.contains('*') && !text.contains(char::is_whitespace);
         let Some(template) = &context.place.template else { return };
         if is_pattern && !context.place.has(text) && self.foreign.insert((context.file.number, start)) {
-            self.notes
-                .push(format!("the template `{template}` makes no \"{text}\". The name means things around the template"));
+            self.notes.push(format!(
+                "the template `{template}` makes no \"{text}\". The name means things around the template"
+            ));
         }
     }
 }

@@ -237,7 +237,7 @@ fn discretisation(
     if seen < FEWEST_MOMENTS.min(ticks as usize) {
         let part = SHARE * 100.0;
         found.notes.push(format!(
-            "the error is not estimated: {part:.0} % of the work tell too little; --estimate takes more"
+            "the error is not estimated: {part:.0} % of the work tell too little. --estimate takes more"
         ));
         return Ok(());
     }
@@ -252,7 +252,7 @@ fn discretisation(
     for (number, &finer) in twins.iter().enumerate() {
         let Some((twin, second)) = twins::run(simulation, (finer, until), patience, scene)? else {
             found.began = None;
-            found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
+            found.notes.push("the error is not estimated: that takes long. --estimate takes the time".to_owned());
             return Ok(());
         };
         if let Some(failure) = &twin.failure {
@@ -299,8 +299,8 @@ fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &m
     let untouched = if touches(simulation) && !touches(second) { ", in which nothing touches" } else { "" };
     found.known_until = Some(known);
     found.notes.push(format!(
-        "the error is that of the first {told} s of {all} s{untouched}, which were run again with finer steps; --estimate runs it \
-         all again"
+        "the error is that of the first {told} s of {all} s{untouched}. Finer runs cover only these. With --estimate they \
+         cover all"
     ));
 }
 

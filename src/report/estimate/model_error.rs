@@ -45,7 +45,7 @@ pub(super) fn estimate(
     let growth = Growth::of(Seen::between(run, &other), run.sizes().0);
     if let Some(horizon) = growth.horizon {
         found.notes.push(format!(
-            "contacts four times as stiff lead elsewhere after t = {horizon:.3} s: the error of the model is that until then"
+            "contacts four times as stiff lead elsewhere after t = {horizon:.3} s. The error of the model holds until then"
         ));
     }
     (estimate.position.model, estimate.velocity.model) = (Some(LEFT * growth.distance), Some(LEFT * growth.speed));

@@ -75,7 +75,6 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
 ];
 
 impl Evidence<'_> {
-
     /// The remedy that the card advises, or a finer one.
     pub fn finer(&self) -> Option<String> {
         self.card.remedy().map(|remedy| remedy.or_finer())
@@ -104,7 +103,7 @@ impl Evidence<'_> {
                 .to_owned();
         }
         if failure.wrong == Wrong::Contradiction {
-            return "give the motor a `limit`, move the limits of the joint that stops it, or leave out one of the two"
+            return "give the motor a `limit`, move the limits of the joint that stops it, or remove one of them"
                 .to_owned();
         }
         let rows = self.world.resource::<State>().rows().all();

@@ -59,9 +59,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
-    let remedy = format!(
-        "a `stiffness` some {times} times as high{with}: overlaps are then about a tenth of a radius"
-    );
+    let remedy = format!("a `stiffness` some {times} times as high{with}: overlaps are then about a tenth of a radius");
     Some(Cause { trust: Trust::ButNot(Part::Model), what, remedy: Some(remedy) })
 }
 

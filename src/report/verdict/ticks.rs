@@ -47,8 +47,7 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     let fastest = rhythms.max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))?;
     let period = TAU / fastest.angular_frequency;
     let ticks = period / card.tick;
-    let what =
-        format!("`{}` swings with {ticks:.1} ticks a period, which are too few to follow it", fastest.path);
+    let what = format!("`{}` swings with {ticks:.1} ticks a period, which are too few to follow it", fastest.path);
     let remedy = Some(Remedy::Tick(rounded_down(period / GOOD_A_PERIOD)).or_finer());
     (card.by_ticks() && ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
 }

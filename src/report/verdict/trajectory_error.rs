@@ -22,10 +22,7 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let (body, time) = estimated.began.as_ref()?;
-    Some(format!(
-        "`{body}` first differs from a run with finer steps, by a hundredth of the motion at {}",
-        at(*time)
-    ))
+    Some(format!("`{body}` first differs from a run with finer steps, by a hundredth of the motion at {}", at(*time)))
 }
 
 /// Chaos: any error grows until places have no correct digit.

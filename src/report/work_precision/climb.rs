@@ -99,7 +99,7 @@ pub(crate) fn climb<S: Subject, I: Iterator<Item = f64>>(
         for index in 0..climbers.len() {
             if rules.leaves_behind && climbers[index].end.is_none() && behind(&climbers, index) {
                 climbers[index].end =
-                    Some("finer ticks were not tried: others have this error for a 64th of the evaluations".to_owned());
+                    Some("it takes 64 times the evaluations that others take for this error".to_owned());
             }
         }
     }
@@ -156,7 +156,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
     /// Why it should go no further.
     fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
         let Some(next) = self.ticks.peek().copied() else {
-            return Some("no finer ticks are on its ladder".to_owned());
+            return Some("its ladder has no finer ticks".to_owned());
         };
         let last = self.settings.last()?;
         let error = match &last.outcome {
@@ -180,7 +180,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
             return Some("its errors fall no more: rounding".to_owned());
         }
         if self.settings.len() - self.trials_of_use >= rules.rungs {
-            return Some(format!("{} ticks were tried, as many as asked for", rules.rungs));
+            return Some(format!("it tried {} ticks, as many as asked for", rules.rungs));
         }
         let (spent, tick) = self.last?;
         // It is run once to be compared, and timed.

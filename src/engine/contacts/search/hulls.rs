@@ -47,7 +47,8 @@ pub(super) fn refuse_pointed(world: &mut World) {
     let Some(body) = moving.find(|&body| bodies.atoms_of(body).any(is_pointed)) else { return };
     let name = |entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let (body, wall) = (name(bodies.entity[body]), name(thin.entity));
-    let message = format!("`{body}` has sharp corners, and `{wall}` has no thickness: they would pass through each other");
+    let message =
+        format!("`{body}` has sharp corners, and `{wall}` has no thickness: they would pass through each other");
     let help =
         format!("give `{wall}` a `thickness`, or `sides: Left` or `Right`. Or give the parts of `{body}` a `rounding`");
     let error = SceneError::new("bodies", message).with_help(help);

@@ -202,7 +202,10 @@ impl<'a> Trials<'a> {
 
     /// The cost of the trials, in words.
     pub fn cost(&self) -> String {
-        format!("{} runs before this one, with {} evaluations of all forces, found these steps", self.count, self.evaluations)
+        format!(
+            "{} runs before this one, with {} evaluations of all forces, found these steps",
+            self.count, self.evaluations
+        )
     }
 
     /// How far bodies go in m, and how fast in m/s; one, where nothing moves.
