@@ -32,7 +32,7 @@ pub struct LargestOverlap {
     pub share_of_radius: f64,
     /// The two bodies, or the body and the wall.
     pub bodies: Vec<String>,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct LargestDrift {
     pub meters: f64,
     /// The joint.
     pub joint: String,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 

@@ -21,7 +21,7 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
 
 /// A scene whose numbers stop being numbers.
 #[test]
-fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
+fn a_run_with_infinite_numbers_says_where_and_what_to_try() {
     Folder::new("overflow")
         .with("over.ron", OVERFLOW)
         .jostle("run over.ron")
@@ -36,7 +36,7 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
 
 /// Velocities are numbers, but their squares are not.
 #[test]
-fn a_run_whose_energy_is_no_number_ends_with_that() {
+fn a_run_whose_energy_is_infinite_ends_with_that() {
     let fast = "Scene(format: 1, clock: (duration: 1, tick: 0.001),
         bodies: [(name: \"ray\", at: (0, 0), velocity: (1e200, 0), atoms: Disc(radius: 0.1))])";
     let told = "the kinetic energy of `ray` is infinite or NaN";

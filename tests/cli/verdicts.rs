@@ -171,7 +171,7 @@ const BROKEN: [Broken; 27] = [
         &["drag takes more than the whole velocity"],
     ),
     (
-        "a force beyond all numbers",
+        "a force that makes values infinite",
         r#"clock: (duration: 2, tick: 0.01, method: VelocityVerlet), forces: [Thrust(of: "ball", force: (1e308, 0), from: 1)],
            bodies: [(name: "ball", at: (0, 0), atoms: Disc(radius: 0.1, mass: 0.001))]"#,
         "",

@@ -266,7 +266,7 @@ fn bodies_may_go_at_any_time() {
 
 /// A component that holds NaN or an infinite number ends the run with the name of the body.
 #[test]
-fn numbers_that_are_none_are_told() {
+fn nan_and_infinite_values_are_told() {
     for clock in CLOCKS {
         for wrong in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
             for spoil in [

@@ -36,22 +36,22 @@ struct Servo {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// The angle in rad or with a unit; of a slide the travel in metres, likewise.
+    /// The angle in rad or with a unit. For a slide it is the travel in metres or with a unit.
     target: Target<OfAngle, OfLength>,
-    /// In N m/rad, or N/m for a slide. Not negative.
+    /// The proportional gain in N m/rad, or N/m for a slide. Not negative.
     kp: Scalar,
-    /// In N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
+    /// The integral gain in N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
     #[serde(default)]
     ki: Scalar,
-    /// In N m s/rad, or N s/m for a slide. Not negative. Default: 0.
+    /// The derivative gain in N m s/rad, or N s/m for a slide. Not negative. Default: 0.
     #[serde(default)]
     kd: Scalar,
     /// The greatest torque in N m, or force in N for a slide. Above zero. Default: none.
     limit: Option<DrivenForce>,
     /// The sampling rate in Hz. The servo holds its output between samples. Above zero. Default: all the time.
     rate: Option<Rate>,
-    /// How long after each sample its output takes effect, in seconds. It may be longer than a period. Until the first sample takes
-    /// effect, the servo gives nothing. Needs `rate`. Not negative. Default: 0.
+    /// The time in seconds from each sample until its output takes effect. It may be longer than a period. Until the first
+    /// sample takes effect, the output is zero. A delay needs a `rate`. Not negative. Default: 0.
     delay: Option<Time>,
 }
 

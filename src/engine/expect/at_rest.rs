@@ -14,9 +14,9 @@ use crate::tick::snapshot::{Memory, Unfit, recall};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AtRest {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
-    /// From this time on, in seconds.
+    /// The expectation holds from this time on, in seconds.
     from: Time,
     /// All points are slower than this, in m/s.
     speed_below: Speed,

@@ -20,7 +20,7 @@ struct Channel {
     name: String,
     /// The bound, in the channel's unit.
     below: Scalar,
-    /// From this time on, in seconds. Default: 0.
+    /// The expectation holds from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
 }

@@ -22,7 +22,7 @@ use crate::world::{Bodies, Name};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Attraction {
-    /// `G` in N m2/kg2; a negative one repels.
+    /// `G` in N m2/kg2. A negative one repels.
     constant: Quantity<GravitationalConstant>,
     /// Length `s` in metres below which the force stops growing. Default: 0.
     #[serde(default)]

@@ -27,9 +27,9 @@ use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, Sta
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drive {
-    /// The bodies it acts on, `*` matches.
+    /// The bodies that the force moves. `*` stands for any letters.
     of: Names,
-    /// Force in newtons if the course is 1. Default: none; a drive has a force, a torque or both.
+    /// Force in newtons if the course is 1. A drive has a force, a torque or both. Default: none.
     force: Option<ForcePair>,
     /// Torque in N m, counter-clockwise, if the course is 1. Default: none.
     torque: Option<units::Torque>,
@@ -52,12 +52,11 @@ pub enum Course {
         /// The largest value. Default: 1.
         #[serde(default = "one")]
         amplitude: Scalar,
-        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: from
-        /// `angular_frequency`.
+        /// Periods per second, in Hz. Not negative. Write this or `angular_frequency`. Default: from `angular_frequency`.
         frequency: Option<Rate>,
         /// `2 pi` times that, in rad/s. Not negative. Default: from `frequency`.
         angular_frequency: Option<Spin>,
-        /// At the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
+        /// The phase at the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
         #[serde(default)]
         phase: Angle,
     },

@@ -23,13 +23,13 @@ use jostle_language::numbers::number;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Aim {
-    /// The body that is thrown. It must have no `velocity` in the scene.
+    /// The body that flies. It must have no `velocity` in the scene.
     of: String,
-    /// The place it is to fly through, in metres.
+    /// The place that it reaches, in metres.
     at: Position,
     /// Its speed at the start in m/s. Above zero.
     speed: Speed,
-    /// Which of the two ways. Default: `Low`.
+    /// The lower or the higher one of the two ways. Default: `Low`.
     #[serde(default)]
     arc: AimArc,
 }

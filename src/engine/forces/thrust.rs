@@ -25,7 +25,7 @@ use crate::world::Bodies;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Thrust {
-    /// The bodies it acts on, `*` matches.
+    /// The bodies that the force moves. `*` stands for any letters.
     of: Names,
     /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
     /// with `datum: Origin`. Default: the centre of mass.
@@ -35,10 +35,10 @@ struct Thrust {
     /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
     frame: ThrustFrame,
-    /// It acts from this time on, in seconds. Default: 0.
+    /// The force acts from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
-    /// The time at which it ends, in seconds. Default: it never ends.
+    /// The time at which it ends, in seconds. Default: none.
     to: Option<Time>,
 }
 
@@ -97,7 +97,7 @@ pub struct ThrustForce {
     pub force: DVec2,
     /// Whether the force turns with the body.
     pub turns: bool,
-    /// It acts from this time on, in seconds.
+    /// The force acts from this time on, in seconds.
     pub from: f64,
     /// The time at which it ends, in seconds.
     pub to: f64,

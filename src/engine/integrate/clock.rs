@@ -32,7 +32,7 @@ pub struct ClockSection {
     /// Length of one tick, in s. Above zero and not longer than the run. Default: chosen from the scene.
     #[serde(default)]
     pub tick: Option<Time>,
-    /// The integration method. Default: `Auto`, the engine chooses.
+    /// The integration method. With `Auto` the engine chooses. Default: `Auto`.
     #[serde(default = "auto")]
     #[schemars(extend("x-words" = "method"))]
     pub method: Word,
@@ -40,7 +40,7 @@ pub struct ClockSection {
     /// the distance that bodies go, for velocities a share of their speed. Default: none.
     #[serde(default)]
     pub tolerance: Option<Scalar>,
-    /// When jumps of the forces take place. Default: `Auto`.
+    /// The moments at which forces jump. Default: `Auto`.
     #[serde(default)]
     pub events: EventTiming,
 }

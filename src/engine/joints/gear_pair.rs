@@ -18,7 +18,7 @@ struct GearPair {
     name: Option<String>,
     /// The two hinges, by name.
     of: (String, String),
-    /// Rate of the second over rate of the first; negative for gears that mesh from outside. Not zero.
+    /// Rate of the second hinge over rate of the first. It is negative for gears that mesh from outside. Not zero.
     ratio: Scalar,
 }
 

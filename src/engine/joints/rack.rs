@@ -19,7 +19,7 @@ struct Rack {
     name: Option<String>,
     /// The hinge and the slide, by name.
     of: (String, String),
-    /// Radius of the pinion in metres; negative for the other side. Not zero.
+    /// Radius of the pinion in metres. It is negative for the other side. Not zero.
     radius: Length,
 }
 

@@ -20,7 +20,7 @@ const QUANTITIES: &[&str] = &["acceleration.x", "acceleration.y", "angular_accel
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Acceleration {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
 }
 

@@ -24,7 +24,7 @@ const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
-    /// Bodies, `*` matches, and walls, which are named in full.
+    /// Bodies and walls. In names of bodies `*` stands for any letters.
     of: Names,
 }
 

@@ -22,7 +22,7 @@ const QUANTITIES: &[&str] = &["count", "mass"];
 struct Count {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m. Default: everywhere.
     within: Option<Region>,

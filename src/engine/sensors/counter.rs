@@ -29,12 +29,12 @@ const QUANTITIES: &[&str] = &["count", "count.net"];
 struct Counter {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
-    /// The touched bodies, `*` matches, and walls, which are named in full. Either this or `gate`. Default: `gate` says what is
-    /// counted.
+    /// The touched bodies and walls. In names of bodies `*` stands for any letters. Write this or `gate`. Default: from
+    /// `gate`.
     touching: Option<Names>,
-    /// The two ends of a gate, in m. Either this or `touching`. Default: `touching` says what is counted.
+    /// The two ends of a gate, in m. Write this or `touching`. Default: from `touching`.
     gate: Option<(Position, Position)>,
 }
 

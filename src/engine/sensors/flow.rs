@@ -29,14 +29,15 @@ const QUANTITIES: &[&str] = &["count", "mass", "count.rate", "mass.rate"];
 struct Flow {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// The two ends of the gate, in m.
     gate: (Position, Position),
-    /// Which passages count, and with which sign. Default: `Net`.
+    /// The passages that count, with their signs. Default: `Net`.
     #[serde(default)]
     direction: Direction,
-    /// The time window of the rates in s, rounded to whole ticks. Above zero. Earlier in the run it begins at the start. Default: 0.5.
+    /// The time window of the rates in s, rounded to whole ticks, at least one. Above zero. Earlier in the run it begins at
+    /// the start. Default: 0.5.
     #[serde(default = "half_a_second")]
     window: Time,
 }

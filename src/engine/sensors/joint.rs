@@ -23,7 +23,7 @@ const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joint {
-    /// The joints, `*` matches.
+    /// The joints. `*` stands for any letters.
     of: Names,
 }
 

@@ -25,7 +25,7 @@ const QUANTITIES: &[&str] = &["mean", "deviation", "least", "greatest"];
 struct Mean {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// The quantity of each body, such as `"speed"` or `"position.y"`.
     quantity: String,

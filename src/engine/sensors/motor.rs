@@ -20,7 +20,7 @@ const QUANTITIES: &[&str] = &["torque", "power"];
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Motor {
-    /// The controllers, `*` matches.
+    /// The controllers. `*` stands for any letters.
     of: Names,
 }
 

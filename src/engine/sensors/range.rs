@@ -38,7 +38,7 @@ struct Range {
     /// The direction of the ray in the body's frame, counter-clockwise from its x axis, in rad. Default: 0.
     #[serde(default)]
     angle: Angle,
-    /// The farthest that it sees, in m. Default: as far as there is something.
+    /// The greatest distance that it sees, in m. Default: none.
     reach: Option<Length>,
 }
 

@@ -40,12 +40,13 @@ const FEWEST: usize = 3;
 struct Repose {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies of the heap, `*` matches.
+    /// The bodies of the heap. `*` stands for any letters.
     of: Names,
     /// Only bodies whose centre of mass is in this region count. It is two opposite corners of a box, or the corners of a polygon
     /// in order, in m. Default: everywhere.
     within: Option<Region>,
-    /// Only bodies that are slower count, in m/s: bodies that still fall are no part of the heap. Above zero. Default: all bodies count.
+    /// Only bodies that are slower count, in m/s: bodies that still fall are no part of the heap. Above zero. Default:
+    /// none.
     slower_than: Option<Speed>,
     /// The width of the columns in m. Above zero. Default: the width of the largest of the bodies.
     column: Option<Length>,

@@ -19,7 +19,7 @@ const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin", "speed"];
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocity {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
 }
 

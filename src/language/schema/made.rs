@@ -44,9 +44,9 @@ pub(super) struct Made {
 struct Include {
     /// The file, from the folder of the file that includes it.
     file: String,
-    /// Its names begin with this and `/`. Default: they stay as they are.
+    /// Its names begin with this and `/`. Default: none.
     prefix: Option<String>,
-    /// Other values for its `params`. Default: its own.
+    /// Other values for its `params`. Default: the values in the file.
     #[schemars(extend("x-value" = "`(name: value)`"))]
     with: Option<BTreeMap<String, Value>>,
 }
@@ -55,7 +55,7 @@ struct Include {
 #[derive(JsonSchema)]
 #[expect(dead_code, reason = "described, never made")]
 pub(super) struct Template {
-    /// The arguments that every instance has to give. Default: none.
+    /// The arguments that each instance must give. Default: none.
     args: Option<Vec<String>>,
     /// Arguments with the value they have if an instance gives none, and values made from others. Default: none.
     #[schemars(extend("x-value" = "`{ \"name\": value }`"))]
@@ -85,19 +85,19 @@ struct Instance {
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "described, never made")]
 pub(super) struct Repeat {
-    /// How often; for a grid columns and rows.
+    /// The number of items. For a grid it is columns and rows.
     #[schemars(schema_with = "count")]
     count: (),
     /// The names of the indices in expressions. Default: `i`, and `j` for rows.
     #[schemars(default, schema_with = "index")]
     r#as: Option<()>,
-    /// Along a line, both ends taken; gives `x` and `y`. Default: no places are given.
+    /// Places along a line, with both ends. They give `x` and `y`. Default: none.
     line: Option<Line>,
-    /// In columns and rows; gives `x` and `y`. Default: no places are given.
+    /// Places in columns and rows. They give `x` and `y`. Default: none.
     grid: Option<Grid>,
-    /// Around a circle; gives `x`, `y` and `angle`. Default: no places are given.
+    /// Places around a circle. They give `x`, `y` and `angle`. Default: none.
     circle: Option<Circle>,
-    /// The item that is made, or a list of items, other `Repeat` among them.
+    /// The item to repeat, or a list of items. Items may be `Repeat` too.
     make: Value,
 }
 
@@ -119,7 +119,7 @@ struct Line {
 struct Grid {
     /// The place of the first.
     from: Position,
-    /// From one column to the next, and from one row to the next.
+    /// The steps from one column to the next, and from one row to the next.
     step: Position,
 }
 

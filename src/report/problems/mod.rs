@@ -189,7 +189,7 @@ pub struct Setting<'a> {
     pub tick: f64,
     /// Seconds by which events are moved against the ticks. Problems that do not depend on the phase ignore it.
     pub shift: f64,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
 }
 
@@ -214,7 +214,7 @@ impl Setting<'_> {
 pub struct Constant {
     /// Name of the method.
     pub method: &'static str,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
     /// The order that the method shows, which the class may limit.
     pub order: u32,

@@ -8,7 +8,7 @@ use jostle_language::numbers::{number, percent};
 pub(crate) const UNACCOUNTED: f64 = 0.05;
 
 /// Energy or momentum is NaN or infinite.
-pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
+pub(super) fn not_finite(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let finite =
         [card.energy.residual, card.momentum_residual[0], card.momentum_residual[1]].iter().all(|x| x.is_finite());
@@ -20,7 +20,7 @@ pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let error = card.energy_error();
-    // If energies are so large that their ratio is NaN, `numbers_that_are_none` reports them.
+    // If energies are so large that their ratio is NaN, `not_finite` reports them.
     if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }

@@ -60,7 +60,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ahead::drag,
     near::attraction,
     place::rounding,
-    energy::numbers_that_are_none,
+    energy::not_finite,
     ticks::unseen_swing,
     energy::unaccounted,
     energy::given_back,

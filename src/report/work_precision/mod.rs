@@ -26,7 +26,7 @@ use jostle_engine::tick::Failure;
 pub struct Course {
     /// Name of the method; `Auto`: the engine chooses.
     pub method: &'static str,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
 }
 

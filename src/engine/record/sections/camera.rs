@@ -98,7 +98,7 @@ pub struct FollowCamera {
     pub of: String,
     /// The height of the picture, in m. Above zero.
     pub height: Length,
-    /// How far the camera is behind, in s of film. Default: 0, the body is always in the middle.
+    /// The delay of the camera, in s of film. With 0 the body is always in the middle. Default: 0.
     #[serde(default)]
     pub smoothing: Time,
 }

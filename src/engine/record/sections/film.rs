@@ -23,16 +23,17 @@ pub struct FilmSection {
     /// Width and height in pixels, each from 16 to 8192. Default: (1280, 720).
     #[serde(default)]
     pub size: Option<(WholeNumber, WholeNumber)>,
-    /// Seconds of physics per second of film; below zero the film runs backwards. Default: 1.
+    /// Seconds of physics per second of film. Below zero the film runs backwards. Default: 1.
     #[serde(default)]
     pub speed: Option<Scalar>,
     /// First moment drawn, in s of physics. Default: 0.
     #[serde(default)]
     pub from: Option<Time>,
-    /// Last moment drawn, in s of physics, after `from`. Default: the end of the run; a later moment means the end.
+    /// Last moment drawn, in s of physics, after `from`. A moment after the end of the run means the end. Default: the end
+    /// of the run.
     #[serde(default)]
     pub to: Option<Time>,
-    /// The moments at which the film stands still. Default: nowhere.
+    /// The moments at which the film stands still. Default: none.
     #[serde(default)]
     pub freeze: Vec<FreezeEntry>,
 }
@@ -45,7 +46,7 @@ pub struct FreezeEntry {
     /// The moment, in s of physics, from the film's beginning to its end. Default: from `touch`.
     #[serde(default)]
     pub at: Option<Time>,
-    /// Two bodies, or a body and a wall: the moment of their first contact in the film, to a tick. Default: from `at`.
+    /// Two bodies, or a body and a wall. The film stands still at their first contact in it, to a tick. Default: from `at`.
     #[serde(default)]
     pub touch: Option<(String, String)>,
     /// The duration of the still, in s of film. Above zero.

@@ -89,7 +89,7 @@ macro_rules! sided {
             /// Its origin in the frame of the body, in m. Default: (0, 0).
             #[serde(default)]
             pub at: crate::scene::units::Position,
-            /// How far it is turned about that point, in rad, counter-clockwise. Default: 0.
+            /// Its turn about that point, in rad, counter-clockwise. Default: 0.
             #[serde(default)]
             pub angle: crate::scene::units::Angle,
             /// The mass in kg. Above zero. Default: density times area.
@@ -98,7 +98,7 @@ macro_rules! sided {
             /// The density in kg/m2. Above zero. Default: that of the material.
             #[serde(default)]
             pub density: Option<crate::scene::units::Density>,
-            /// Whether it touches others; without, it is seen and has its mass. Default: `true`.
+            /// Whether it touches other bodies and walls. If not, it is still visible and has its mass. Default: `true`.
             #[serde(default = "super::yes")]
             pub collides: bool,
         }

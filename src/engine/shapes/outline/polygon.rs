@@ -12,7 +12,7 @@ sided! {
     PolygonShape, "Polygon" {
         /// Its corners in m, in order around it.
         points: Vec<Position>,
-        /// The radius of its corners in m; those that bend inwards stay sharp. Default: 0.
+        /// The radius of its corners in m. Corners that bend inwards stay sharp. Default: 0.
         #[serde(default)]
         rounding: Length,
     }

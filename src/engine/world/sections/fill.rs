@@ -41,29 +41,30 @@ const CELLS: usize = 512;
 pub struct FillEntry {
     /// The prefix of their names.
     pub name: String,
-    /// The atoms of each. Default: none; then it has a `shape`.
+    /// The atoms of each body. Without them it has a `shape`. Default: none.
     #[serde(default)]
     pub atoms: Option<Atoms>,
-    /// The shape with sides of each. Default: none.
+    /// The shape with sides of each body. Default: none.
     #[serde(default)]
     pub shape: Option<Shape>,
-    /// Makes each a disc of another radius, by the same seed: how radii are distributed, in place of `atoms` and `shape`. Default: all are equal.
+    /// The distribution of radii, in place of `atoms` and `shape`. Each body is then a disc of another radius, by the same
+    /// seed. Default: all are equal.
     #[serde(default)]
     pub radius: Option<Radii>,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// How many, from 1 to 1 000 000 in all.
+    /// The number of bodies, from 1 to 1 000 000 in all.
     pub count: WholeNumber,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m.
     pub within: Region,
-    /// How fast each moves at the start, in m/s. Default: 0.
+    /// The speed of each body at the start, in m/s. Default: 0.
     #[serde(default)]
     pub speed: Speed,
     /// The seed of chance. Default: 0.
     #[serde(default)]
     pub seed: WholeNumber,
-    /// How far those circles stay apart from each other and from other bodies at least, in m. Default: 0.
+    /// The least distance of those circles from each other and from other bodies, in m. Default: 0.
     #[serde(default)]
     pub gap: Length,
 }

@@ -13,9 +13,9 @@ use crate::world::kinematic::{Path, PathPoint};
 #[serde(deny_unknown_fields, rename = "", default)]
 #[schemars(rename = "Kinematic")]
 pub struct KinematicEntry {
-    /// The velocity at the start, in m/s; without a path, for ever. Default: (0, 0).
+    /// The velocity at the start, in m/s. Without a path it stays so. Default: (0, 0).
     pub velocity: Velocity,
-    /// The spin at the start, in rad/s; without a path, for ever. Default: 0.
+    /// The spin at the start, in rad/s. Without a path it stays so. Default: 0.
     pub spin: Spin,
     /// The points of its path. Default: none.
     pub path: Vec<PathEntry>,
@@ -33,10 +33,10 @@ pub struct PathEntry {
     /// The displacement from the start, in m. Default: (0, 0).
     #[serde(default)]
     pub by: Position,
-    /// How far it is turned from its angle at the start, in rad. Default: 0.
+    /// Its turn from its angle at the start, in rad. Default: 0.
     #[serde(default)]
     pub turn: Angle,
-    /// Its velocity there, in m/s. Default: (0, 0), a stop.
+    /// Its velocity there, in m/s. With (0, 0) the body stops. Default: (0, 0).
     #[serde(default)]
     pub velocity: Velocity,
     /// Its spin there, in rad/s. Default: 0.

@@ -150,7 +150,8 @@ impl<'a> Manual<'a> {
             if values.len() == 2 && values.iter().all(|value| *value == first) {
                 return (format!("`(a, b)`, each {first}"), unit);
             }
-            return (format!("`(..)` of {}", values.join(" and ")), unit);
+            let names: Vec<String> = (b'a'..).take(values.len()).map(|letter| char::from(letter).to_string()).collect();
+            return (format!("`({})`: {}", names.join(", "), values.join(", then ")), unit);
         }
         if about["const"].is_string() {
             return (code(&about["const"]), String::new());
