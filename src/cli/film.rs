@@ -280,7 +280,7 @@ fn film_step(simulation: &Simulation, frames_per_second: f64) -> f64 {
     simulation.film().speed() / frames_per_second
 }
 
-/// How many threads may draw pictures of this size without taking all of the memory.
+/// The number of threads that may draw pictures of this size without taking all of the memory.
 fn affordable_threads((width, height): (u32, u32)) -> usize {
     (MEMORY / (width as usize * height as usize * BYTES_PER_PIXEL)).max(1)
 }

@@ -13,7 +13,7 @@ pub(super) struct Squeeze<'a> {
     pub view: &'a View,
     /// The size in bytes.
     pub most: u64,
-    /// How many frames were kept aside.
+    /// The number of frames that were kept aside.
     pub frames: u64,
 }
 

@@ -194,7 +194,7 @@ impl<'a> Lines<'a> {
         start..end.max(start)
     }
 
-    /// How many lines there are.
+    /// The number of lines.
     pub(crate) fn count(&self) -> usize {
         self.starts.len()
     }

@@ -336,7 +336,7 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
 fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
     let Some(watch) = world.resource::<State>().stopwatch() else { return Vec::new() };
     let spent = |part: Part| watch.spent(part).as_secs_f64();
-    // Nothing runs between two ticks, except the loop, so that time belongs to no stage.
+    // Between two ticks only the loop runs, so that time belongs to no stage.
     let in_ticks = |part: &Part| *part != Part::Between;
     let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
     let systems = stopwatch::systems(world);

@@ -27,8 +27,8 @@ use crate::tick::{
     Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
 };
 
-/// Drives a hinge to an angle, or a slide to a position. Its torque (force) is `kp (target - angle) + ki` times the
-/// integral of that `+ kd (rate of the target - rate)`. The field `limit` bounds it.
+/// Drives a hinge to an angle, or a slide to a position. Its torque (force) has three terms: `kp (target - angle)`, `ki`
+/// times the integral of that difference, and `kd (rate of the target - rate)`. The field `limit` bounds it.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Servo {

@@ -10,7 +10,7 @@ use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::{Memory, Unfit, recall};
 
-/// From a time on every point of the bodies is slower than a speed; looked at every tick.
+/// From a time on, every point of the bodies is slower than a speed, at every tick.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AtRest {

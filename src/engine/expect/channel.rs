@@ -12,7 +12,7 @@ use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
 use crate::tick::snapshot::{Memory, Unfit, recall};
 
-/// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
+/// The magnitude of a channel stays below a bound, at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Channel {

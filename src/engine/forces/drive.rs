@@ -23,7 +23,7 @@ use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, State, SteadySpring, TickAppExt};
 
-/// A force or torque that follows a course in time. The course is a factor on the values that are given here.
+/// A force or torque that follows a course in time. The course is a factor on the values of this entry.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drive {
@@ -64,10 +64,9 @@ pub enum Course {
     /// their values. Steps inside ticks end at the points. `VelocityVerlet` and `SemiImplicitEuler` without located
     /// events see the course at ticks only. The card warns if that changes the impulse.
     Piecewise(Vec<(Time, Scalar)>),
-    /// The same from a file of two columns, time in seconds and value, with or without a line of names. The path begins
-    /// in the folder of the file with this entry. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its
-    /// columns by name; without `time` the first column holds it. The line of names may hold units, as in `angle
-    /// [rad]`.
+    /// The same from a file of two columns, time in seconds and value, with or without a line of names. The path begins in
+    /// the folder of the file with this entry. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its columns
+    /// by name. Without `time` the first column holds it. The line of names may hold units, as in `angle [rad]`.
     Csv(#[schemars(with = "CsvFile")] String),
 }
 

@@ -18,8 +18,8 @@ use crate::tick::{AfterLoad, LoadErrors, State};
 use crate::world::Velocity;
 use jostle_language::numbers::number;
 
-/// Gives a body the velocity at the start with which its centre of mass flies through a point. Gravity, drag and wind
-/// of the scene count; other forces make it miss. An unreachable point is an error that names a sufficient speed.
+/// Gives a body the velocity at the start with which its centre of mass flies through a point. Gravity, drag and wind of
+/// the scene count. Other forces make it miss. An unreachable point is an error that names a sufficient speed.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Aim {

@@ -22,7 +22,7 @@ pub enum EventTiming {
     PerTick,
 }
 
-/// How long the run is, in which steps, by which method.
+/// The duration, the steps and the method of the run.
 #[derive(Resource, Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Clock")]
@@ -57,7 +57,7 @@ impl ClockSection {
     pub const AUTO: &'static str = "Auto";
     /// The method with the smallest possible error, which it also estimates. It must be registered too.
     pub const REFERENCE: &'static str = "Reference";
-    /// Why a tolerance does not go with it.
+    /// The reason for which a tolerance does not go with it.
     pub(crate) const REFERENCE_HAS_NONE: &'static str =
         "`Reference` makes the smallest error there is: it takes no tolerance";
 }

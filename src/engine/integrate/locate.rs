@@ -43,7 +43,7 @@ pub struct Bracket {
     /// The share tried last.
     tried: f64,
     guesses: u32,
-    /// How often the lower end (positive) or the upper one (negative) was replaced in a row.
+    /// The number of times that the lower end (positive) or the upper one (negative) was replaced in a row.
     replaced: i32,
     /// The share tried last is the event.
     met: bool,

@@ -9,8 +9,8 @@ use super::model;
 use crate::scene::units::Scalar;
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
-/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and no force: a
-/// ratio names no place for teeth, so the bearings bear nothing of them.
+/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and
+/// no force: a ratio names no place for teeth. So the bearings bear no force of them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GearPair {

@@ -213,7 +213,7 @@ impl Limit {
         }));
     }
 
-    /// How many indicators there are.
+    /// The number of indicators.
     pub fn count(&self) -> usize {
         if self.at.is_some() { 1 } else { self.sides().count() }
     }

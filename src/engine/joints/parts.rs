@@ -60,7 +60,7 @@ pub struct Parts {
     break_force: Option<f64>,
     /// When it broke, in seconds.
     pub broken: Option<f64>,
-    /// How many rows there are, of the limit and of friction.
+    /// The number of rows, of the limit and of friction.
     rows: [usize; 2],
 }
 

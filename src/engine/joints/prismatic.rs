@@ -19,7 +19,7 @@ use crate::scene::units::{Force, Length, Position, Scalar};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
 /// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`. Body `b` does not turn against
-/// `a`. Its travel is measured from `anchor_a` along the line.
+/// `a`. Its travel counts from `anchor_a` along the line.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Prismatic {

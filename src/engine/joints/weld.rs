@@ -17,7 +17,7 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Force, Position};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
 
-/// Holds two bodies in their relative pose at the start.
+/// A weld, which holds two bodies in their relative pose at the start.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Weld {

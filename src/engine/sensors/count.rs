@@ -15,8 +15,8 @@ use crate::world::sections::Region;
 
 const QUANTITIES: &[&str] = &["count", "mass"];
 
-/// The number of bodies whose centres of mass are in a region, `bin.count`, and their mass in kg, `bin.mass`. `Counter` counts
-/// how often bodies touch others, `Flow` those that pass a line.
+/// The number of bodies whose centres of mass are in a region, `bin.count`, and their mass in kg, `bin.mass`. `Counter`
+/// counts touches of bodies, and `Flow` counts bodies that pass a line.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Count {

@@ -21,9 +21,9 @@ use crate::tick::{add_looker, add_packed_observer};
 
 const QUANTITIES: &[&str] = &["count", "count.net"];
 
-/// How often bodies began to touch others since the start, or passed a gate: `hits.count`. Of a gate `grains.count.net` is how
-/// often they passed it to the left, less how often to the right. Contacts count as in `Contacts`; passages are seen from tick to
-/// tick. `Period` counts how often a channel crosses a value.
+/// The number of touches that bodies began since the start, or of their passages through a gate: `hits.count`. For a gate
+/// `grains.count.net` is the number of passages to the left, less those to the right. Contacts count as in `Contacts`.
+/// Passages count from tick to tick. `Period` counts the crossings of a value by a channel.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Counter {

@@ -21,9 +21,9 @@ use crate::tick::{Clock, State, add_looker};
 
 const QUANTITIES: &[&str] = &["count", "mass", "count.rate", "mass.rate"];
 
-/// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates over a time window
-/// are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes where its centre of mass crosses the line between the two ends,
-/// seen from tick to tick. Left is the left hand of a walk from the first end to the second.
+/// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates
+/// over a time window are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes if its centre of mass crosses
+/// the line between the two ends, seen from tick to tick. Left is the left hand of a walk from the first end to the second.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Flow {

@@ -31,10 +31,10 @@ const QUANTITIES: &[&str] = &["repose", "repose.left", "repose.right"];
 /// A line is fitted to at least this many points, because two points always have a line through both.
 const FEWEST: usize = 3;
 
-/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks, `heap.repose` is
-/// their mean. The heap is cut into upright columns. In each of them the highest point of a body is a point of the free surface.
-/// Least squares fit a straight line to the points of a flank. An angle is positive where the flank rises to the summit. A flank
-/// with fewer than three points is NaN, and the mean is then that of the other flank.
+/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks,
+/// `heap.repose` is their mean. The heap is cut into upright columns. In each of them the highest point of a body is a
+/// point of the free surface. Least squares fit a straight line to the points of a flank. An angle is positive if the flank
+/// rises to the summit. A flank with fewer than three points is NaN, and the mean is then that of the other flank.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Repose {

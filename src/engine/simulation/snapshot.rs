@@ -39,7 +39,7 @@ struct Header {
     /// Systems of users in the tick.
     systems: Vec<String>,
     ticks: u64,
-    /// How often forces were evaluated so far.
+    /// The number of times that forces were evaluated so far.
     evaluations: u64,
 }
 

@@ -38,7 +38,7 @@ pub struct Evaluation {
     pub elapsed: f64,
     /// How contacts and other models with a history are to be evaluated.
     pub mode: EvaluationMode,
-    /// How often forces were evaluated so far: the cost of a method.
+    /// The number of times that forces were evaluated so far: the cost of a method.
     // It depends on how a run is cut into batches, and decides nothing.
     #[serde(skip)]
     pub count: u64,

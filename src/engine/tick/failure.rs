@@ -82,7 +82,7 @@ impl Wrong {
 }
 
 impl Failure {
-    /// Something is gone without which there are no ticks, nor a time.
+    /// A part of the world without which no tick runs is gone.
     pub(super) fn gone(name: &'static str) -> Self {
         Self { body: String::new(), other: String::new(), wrong: Wrong::Gone(name), tick: 0, time: 0.0 }
     }

@@ -56,7 +56,7 @@ pub struct State {
     pub(crate) springs: SteadySprings,
     pub(crate) steps: StepCount,
     pub(crate) located: LocatedEvents,
-    /// How many systems of users make forces.
+    /// The number of systems of users that make forces.
     pub(crate) force_systems: usize,
     pub(super) progress: Progress,
     #[serde(skip)]

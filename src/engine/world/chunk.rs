@@ -278,7 +278,7 @@ impl<W: PerBody> Kernel for All<'_, W> {
     }
 }
 
-/// How many parts a list is cut into that takes so much work: a function of that alone.
+/// The number of parts of a list that takes so much work. It depends on the work alone.
 pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
     (work / fewest).clamp(1, MOST)
 }

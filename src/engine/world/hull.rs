@@ -67,7 +67,7 @@ pub struct PackedHull {
     pub(crate) rounded: Option<Rounded>,
     /// Half of its least width in metres.
     pub half_width: f64,
-    /// How far it reaches from the centre of mass, in metres.
+    /// The distance that it reaches from the centre of mass, in metres.
     pub extent: f64,
     /// The middle of its corners, and how far it reaches from there, in metres.
     pub(crate) circle: (DVec2, f64),

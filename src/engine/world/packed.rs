@@ -207,7 +207,7 @@ impl Bodies {
         (self.entity.get(index) == Some(&entity)).then_some(index)
     }
 
-    /// How many bodies move by forces.
+    /// The number of bodies that move by forces.
     pub(crate) fn dynamic_count(&self) -> usize {
         if self.all_dynamic { self.len() } else { self.dynamic.iter().filter(|dynamic| **dynamic).count() }
     }

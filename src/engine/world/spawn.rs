@@ -113,7 +113,7 @@ fn spawn_one(world: &mut World, pushed: bool, components: impl Bundle) -> Entity
 pub(super) struct Series {
     /// The prefix of their names.
     pub prefix: String,
-    /// How many there are.
+    /// The number of them.
     pub count: usize,
     /// The key of the first; the others follow it. `None`: the next key.
     pub key: Option<u64>,

@@ -46,9 +46,9 @@ pub enum OutputError {
     Poses {
         /// The time of the frame in seconds.
         time: f64,
-        /// How many bodies the cast has.
+        /// The number of bodies that the cast has.
         bodies: usize,
-        /// How many poses the frame has.
+        /// The number of poses that the frame has.
         poses: usize,
     },
     /// The film ended without a frame.
@@ -85,7 +85,7 @@ pub enum OutputError {
         path: PathBuf,
         /// Its size so far in bytes.
         bytes: u64,
-        /// How many frames that are.
+        /// The number of frames in the picture.
         frames: u64,
     },
     /// A write followed a failed one.

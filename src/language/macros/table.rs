@@ -139,7 +139,7 @@ struct Fault {
 /// How the lines of a table are read.
 struct Layout {
     separator: char,
-    /// How many columns there are, and which of them hold the time and the value.
+    /// The number of columns, and which of them hold the time and the value.
     count: usize,
     indices: [usize; 2],
 }

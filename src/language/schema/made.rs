@@ -28,8 +28,8 @@ bodies: [
 pub(super) struct Made {
     /// Other files whose lists and maps come into this scene. Default: none.
     include: Option<Vec<Include>>,
-    /// Values with names, for expressions in quotes; `--set n=9` gives one another value. A value may depend on others,
-    /// in any order, and may have any form that a scene allows. Default: none.
+    /// Values with names, for expressions in quotes. `--set n=9` gives one of them another value. A value may depend on
+    /// others, in any order, and may have any form that a scene allows. Default: none.
     #[schemars(extend("x-value" = "`{ \"name\": value }`"))]
     params: Option<BTreeMap<String, Value>>,
     /// Parts of scenes that instances make, by name. Default: none.
@@ -79,8 +79,8 @@ struct Instance {
     set: Option<BTreeMap<String, Value>>,
 }
 
-/// In any list, in place of an item: one item several times. In `make` the count has a name, `i` from 0 on; with two
-/// counts, `j` are the rows.
+/// In any list, in place of an item: one item several times. In `make` the count has a name, `i` from 0 on. With two
+/// counts, `j` counts rows.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "described, never made")]

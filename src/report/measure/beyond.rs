@@ -47,7 +47,7 @@ impl MeanDeviation {
 pub(super) struct Beyond {
     from: f64,
     means: Means,
-    /// How far bodies go, in m.
+    /// The distance that bodies go, in m.
     motion: f64,
     /// How far reference runs are from each other.
     pub scatter: MeanDeviation,

@@ -43,7 +43,7 @@ pub struct Reference {
     pub horizon: Option<f64>,
     /// Until when settings are compared with it, in s.
     pub until: f64,
-    /// Why that is not the whole run.
+    /// The reason for which that is not the whole run.
     pub why_until: Option<String>,
     /// The difference of means over the rest of the run between reference runs, if there is a rest.
     pub scatter: Option<MeanDeviation>,

@@ -41,7 +41,7 @@ struct Overlaps {
     /// More pairs of atoms than this are too many.
     most: usize,
     pairs: Vec<Pair>,
-    /// How many pairs of atoms that are.
+    /// The number of pairs of atoms in them.
     atoms: usize,
     /// Whether there may be more.
     more: bool,

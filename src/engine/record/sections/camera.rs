@@ -11,11 +11,12 @@ use crate::scene::{Diagnostics, Entry, Kind, Outline, Written};
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
 /// The meaning of the section.
-pub const MEANING: &str = "Which part of the world the film shows. Without this section `Fit`, with its default.";
+pub const MEANING: &str = "The part of the world that the film shows. Without this section the camera is `Fit`, with its \
+default.";
 /// One correct use of the section.
 pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";
 
-/// Everything that moves stays in the picture.
+/// All bodies that move stay in the picture.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Fit")]
@@ -129,7 +130,7 @@ impl Entry for FollowCamera {
 /// The camera of the scene. Absent: everything fits, with the default margin.
 #[derive(Resource, Clone, Debug)]
 pub enum CameraChoice {
-    /// Everything that moves stays in the picture.
+    /// All bodies that move stay in the picture.
     Fit(FitCamera),
     /// A fixed part of the world.
     Look(LookCamera),

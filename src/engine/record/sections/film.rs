@@ -12,7 +12,7 @@ use crate::scene::{Diagnostics, Kind, Outline, Section};
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
 
-/// The part of the run that is drawn. It never changes the physics.
+/// The part of the run that the film shows. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Film")]

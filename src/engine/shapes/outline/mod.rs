@@ -151,11 +151,11 @@ list! {
     Rectangle(rectangle::RectangleShape),
     /// `Regular(sides: 6, radius: 0.1)`: a regular polygon about the origin, with a corner at +x.
     Regular(regular::RegularShape),
-    /// `Polygon(points: [(0, 0), (1, 0), (0, 1)])`: a polygon; a concave one is cut into convex parts.
+    /// `Polygon(points: [(0, 0), (1, 0), (0, 1)])`: a polygon. The engine cuts a concave one into convex parts.
     Polygon(polygon::PolygonShape),
     /// `Svg(file: "part.svg", height: 0.2)`: the outlines of a drawing, cut into convex parts.
     Svg(svg::SvgShape),
-    /// `Gear(teeth: 24, module: "5 mm")`: a spur gear with involute teeth about the origin; one tooth points along +x.
+    /// `Gear(teeth: 24, module: "5 mm")`: a spur gear with involute teeth about the origin. One tooth points along +x.
     Gear(gear::GearShape),
     /// `Rack(teeth: 12, module: "5 mm")`: a bar with teeth above, its pitch line along x through the origin.
     Rack(rack::RackShape),

@@ -1,4 +1,4 @@
-//! `Polygon(points, rounding)`: a polygon; a concave one is cut into convex parts.
+//! `Polygon(points, rounding)`: a polygon. The engine cuts a concave one into convex parts.
 
 use glam::DVec2;
 use jostle_shapes as shapes;

@@ -68,9 +68,9 @@ pub(super) struct Trials<'a> {
     pub cut: bool,
     /// The fineness of the first.
     coarsest: f64,
-    /// How many were made.
+    /// The number of trials so far.
     pub count: u32,
-    /// How often forces were evaluated in all of them.
+    /// The number of times that forces were evaluated in all of them.
     pub evaluations: u64,
     /// The greatest distance and speed of bodies, from the last trial.
     sizes: (f64, f64),
@@ -208,7 +208,7 @@ impl<'a> Trials<'a> {
         )
     }
 
-    /// How far bodies go in m, and how fast in m/s; one, where nothing moves.
+    /// The distance that bodies go in m, and their speed in m/s. Both are one if all bodies rest.
     pub fn sizes(&self) -> (f64, f64) {
         let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
         (or_one(self.sizes.0), or_one(self.sizes.1))

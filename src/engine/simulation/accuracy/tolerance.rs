@@ -186,7 +186,7 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDist
     plan
 }
 
-/// Why there are no smaller steps for bodies that come `farthest` metres from the origin and go `distance`.
+/// The reason for which steps cannot be smaller, if bodies come `farthest` metres from the origin and go `distance`.
 fn bounded(farthest: f64, distance: f64) -> String {
     if farthest > FAR * distance {
         let (farthest, distance) = (number(farthest), number(distance));

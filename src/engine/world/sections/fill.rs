@@ -21,7 +21,7 @@ use crate::world::{material, sections};
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read. A
 /// film reads its scene twice.
 pub const LARGEST_COUNT: u64 = 1_000_000;
-/// How often a place is tried for one body before the region counts as full.
+/// The number of times that a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
 /// Bodies that would take a smaller share of their region do not fill it.
 const SPARSE: f64 = 0.3;
@@ -85,10 +85,10 @@ pub struct Placed {
 /// Many bodies of a kind in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
 /// `gas_1` and so on.
 ///
-/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. A circle about the centre
-/// of mass of each body holds all its atoms and shapes. These circles do not touch each other, other bodies, walls or the
-/// region's border. The same seed gives the same places on every machine. If radii are distributed, the largest are placed first.
-/// Names go by the order in which radii were drawn.
+/// Each stands at a random place in the region at a random angle, and moves in a random direction. A circle about the
+/// centre of mass of each body holds all its atoms and shapes. These circles do not touch each other, other bodies, walls
+/// or the region's border. The same seed gives the same places on every machine. If radii are distributed, the largest are
+/// placed first. Names go by the order in which radii were drawn.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
 

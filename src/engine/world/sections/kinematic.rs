@@ -7,7 +7,7 @@ use crate::scene::Diagnostics;
 use crate::scene::units::{Angle, Position, Spin, Time, Velocity};
 use crate::world::kinematic::{Path, PathPoint};
 
-/// How a body moves that nothing pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
+/// The motion of a body that no force pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
 /// `kinematic: (path: [(time: 1, by: (2, 0)), (time: 2, by: (0, 0))], repeat: true)`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "", default)]

@@ -193,7 +193,7 @@ impl<'a> Manual<'a> {
                 self.paragraph(&match arity {
                     Arity::List => format!("A list of any of {}.", names.join(", ")),
                     Arity::Words => {
-                        format!("A list of any of {}; without fields they need no brackets.", names.join(", "))
+                        format!("A list of any of {}. Without fields they need no brackets.", names.join(", "))
                     }
                     Arity::One => format!("One of {}.", names.join(", ")),
                     Arity::OneOrNone => format!("One of {}, or `None`.", names.join(", ")),
