@@ -111,7 +111,7 @@ pub struct PhysicsPlugin {
     pub overrides: Overrides,
     /// Registers further forces, sensors ... before the scene is read. Default: none.
     pub plugins: fn(&mut App),
-    /// How many ticks a timestep of the app has.
+    /// The number of ticks in a timestep of the app.
     pub pace: Pace,
 }
 

@@ -142,7 +142,7 @@ impl Test {
         exit
     }
 
-    /// Which scenes are asked for.
+    /// The requested scenes.
     fn candidates(&self) -> Result<Vec<Candidate>, String> {
         if let Some(path) = &self.junit {
             let message = if is_directory(path) {

@@ -36,7 +36,7 @@ impl Verdict {
         }
     }
 
-    /// How a command ends that made this run.
+    /// The end of a command that made this run.
     pub fn exit(self) -> Exit {
         match self {
             Self::Good => Exit::Good,

@@ -52,7 +52,7 @@ pub struct Diagnostics {
     scope: String,
     problems: Vec<Diagnostic>,
     notes: Vec<String>,
-    /// How much work it was to compare patterns with names.
+    /// The work of comparing patterns with names.
     compared: usize,
 }
 

@@ -20,9 +20,9 @@ use crate::tick::Failure;
 use crate::tick::State;
 use crate::tick::stopwatch::{self, Part};
 
-/// How long a scene is run as it is, to learn how much a look at the clock costs.
+/// The duration of the run without looks at the clock, which gives their cost.
 const PLAIN: Duration = Duration::from_millis(500);
-/// How long it is run with a look at the clock around each stage, as far as it goes.
+/// The longest duration of the run with looks at the clock around each stage.
 const WATCHED: Duration = Duration::from_millis(2500);
 /// Fewer ticks have no first and last tenth to be compared.
 const FEWEST_TICKS: u64 = 100;
@@ -38,13 +38,13 @@ pub(super) struct Anatomy {
     all_ticks: u64,
     atoms: usize,
     pairs: (usize, usize),
-    /// How pairs were searched, and for how many evaluations their lists held in the mean.
+    /// The search for pairs, and the mean number of evaluations for which its lists held.
     search: Option<(&'static str, f64)>,
     /// Seconds per tick of a run without looks at the clock.
     per_tick: f64,
     /// The same in the first and in the last tenth of the ticks; nothing, if they are few.
     tenths: Option<[f64; 2]>,
-    /// How much longer a tick takes when it is watched, as a share.
+    /// The cost of looks at the clock, as a share of a tick.
     slower: f64,
     parts: Vec<Stage>,
     failure: Option<String>,
@@ -113,7 +113,7 @@ impl Anatomy {
         })
     }
 
-    /// Which part of the run the numbers are of.
+    /// The part of the run to which the numbers belong.
     fn looked_at(&self) -> String {
         let (ticks, all) = (self.ticks, self.all_ticks);
         if ticks == all {
@@ -222,7 +222,7 @@ impl Anatomy {
     }
 }
 
-/// How long a batch of ticks takes at least, between two marks.
+/// The least duration of a batch of ticks, between two marks.
 const BATCH: Duration = Duration::from_millis(3);
 
 /// Runs until a tick, or until the scene or the time is over. On the way it marks ticks and seconds spent.

@@ -25,12 +25,12 @@ fn error_in_words(measured: &Measured, setting: &Setting) -> String {
     }
 }
 
-/// How far it is from the reference, in m and m/s.
+/// Its distance from the reference, in m and m/s.
 fn apart(setting: &Setting) -> Option<(f64, f64)> {
     if let Outcome::Measured(Deviation { apart, .. }) = setting.outcome { apart } else { None }
 }
 
-/// How it came out, in a word.
+/// Its outcome, in a word.
 fn word(setting: &Setting) -> &'static str {
     match setting.outcome {
         Outcome::Measured(_) => "measured",

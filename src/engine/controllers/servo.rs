@@ -382,7 +382,7 @@ impl Events for ServoForce {
         rates.fill(self.driven.motion(&state.bodies).map_or(0.0, error));
     }
 
-    /// How far the output is from both bounds, or beyond the one that it gives.
+    /// The distance of the output from both bounds, or beyond the one that it gives.
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         let Some(Wanted { torque, slope, size }) = self.look(state) else { return };
         let told_of = |sign: f64, limit: f64| Indicator {

@@ -97,7 +97,7 @@ pub struct End {
     pub arm: DVec2,
     /// Its position, in metres.
     pub position: DVec2,
-    /// How it moves, in m/s.
+    /// Its velocity, in m/s.
     pub velocity: DVec2,
 }
 

@@ -116,7 +116,7 @@ pub struct Coupling {
 /// How a pinion meets its rack.
 #[derive(Clone, Copy, Debug)]
 struct Mesh {
-    /// Which end of the hinge is the pinion, which one of the slide the rack. The other two are their frame.
+    /// The end of the hinge that is the pinion, and the end of the slide that is the rack. The other two are their frame.
     pinion: usize,
     rack: usize,
     /// From anchor B of the slide to the pitch point, across the axis, in m.

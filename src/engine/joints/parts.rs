@@ -98,7 +98,7 @@ impl Parts {
         }
     }
 
-    /// How far the joint is beyond its limits, in rad or m.
+    /// The distance of the joint beyond its limits, in rad or m.
     pub fn beyond(&self, law: &dyn Law, pair: &Pair) -> f64 {
         let freedom = law.freedom(pair);
         self.limit.as_ref().zip(freedom).map_or(0.0, |(limit, freedom)| limit.beyond(pair, &freedom))

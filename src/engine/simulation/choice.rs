@@ -56,7 +56,7 @@ pub struct Plan {
     pub tick: f64,
     /// Steps of a tick.
     pub pace: Pace,
-    /// How finely steps are made beside that.
+    /// The fineness of steps beside that.
     pub detail: Detail,
     /// When forces jump.
     pub events: EventTiming,
@@ -150,7 +150,7 @@ pub(super) fn order(world: &World, plan: &Plan) -> u32 {
     method.map_or(1, |method| method.order)
 }
 
-/// How many steps of a tick suit the fastest contact or spring.
+/// The number of steps of a tick that suits the fastest contact or spring.
 pub(super) fn steps_per_tick(world: &World, plan: &Plan) -> u32 {
     let wanted = chosen_tick(world).map_or(plan.tick, |(tick, _)| tick);
     (plan.tick / wanted).ceil().clamp(1.0, f64::from(u32::MAX)) as u32

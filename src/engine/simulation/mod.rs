@@ -185,7 +185,7 @@ impl Simulation {
         scene::found_later(&self.world, &self.origin.source, vec![error])
     }
 
-    /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
+    /// The plan of its run. With [`Overrides::plan`] another run of the scene is like it, and needs no trials.
     pub fn plan(&self) -> Option<&Plan> {
         self.unpublished_world().get_resource()
     }

@@ -34,7 +34,7 @@ struct Header {
     version: String,
     /// The digest of the scene's text with all that it includes.
     scene: u64,
-    /// How the scene is run: method, tick, steps.
+    /// The plan of the run: method, tick, steps.
     plan: String,
     /// Systems of users in the tick.
     systems: Vec<String>,

@@ -131,7 +131,7 @@ impl Fastest {
 }
 
 impl Briefest {
-    /// How long the contact lasts, in seconds.
+    /// The duration of the contact, in seconds.
     pub fn duration(&self) -> f64 {
         PI / self.angular_frequency
     }

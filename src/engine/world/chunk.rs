@@ -171,7 +171,7 @@ impl<'a> Part<'a> {
         (V::load(&self.inverse_mass[first..]), V::load(&self.inverse_inertia[first..]))
     }
 
-    /// Which of them move by forces.
+    /// The bodies among them that move by forces.
     #[inline(always)]
     pub fn moving<V: Lanes>(&self, first: usize) -> V::Mask {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));

@@ -258,7 +258,7 @@ impl Bodies {
         self.nearest_on(packed.body as usize, &packed.hull, at)
     }
 
-    /// How much farther in metres sharp corners may be from a hull than it and they are as they meet.
+    /// The greatest distance in metres of sharp corners from a hull, beyond that at their meeting.
     pub(crate) fn spread(&self, hull: usize, atom: usize) -> f64 {
         let own = self.hull_of(atom).and_then(|own| self.hulls[own].rounded.as_ref());
         own.filter(|_| self.hulls[hull].rounded.is_some()).map_or(0.0, |own| own.spread)

@@ -31,7 +31,7 @@ pub struct Material {
     pub friction_static: f64,
     /// Coefficient of dynamic friction. Default: 0.
     pub friction_dynamic: f64,
-    /// How it rebounds. Default: nothing is lost.
+    /// Its rebound. Default: no loss.
     pub rebound: Rebound,
     /// Mass per area in kg/m2, for atoms without a mass. Default: 1.
     pub density: f64,

@@ -183,7 +183,7 @@ pub struct Bodies {
     /// Velocity of the surface of each wall in m/s; empty if all are at rest.
     pub belts: Vec<DVec2>,
 
-    /// How long the lists were when they were filled.
+    /// The lengths of the lists when they were filled.
     #[serde(skip)]
     pub(crate) counts: Option<Counts>,
 }

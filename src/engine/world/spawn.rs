@@ -38,7 +38,7 @@ pub struct NextKey {
 pub struct NewBody {
     /// Name in the scene.
     pub name: String,
-    /// How it moves.
+    /// Its motion.
     pub motion: Motion,
     /// Its prescribed motion, if it has one. Then it is [`Motion::Kinematic`] from the beginning, and this sets its
     /// initial state.

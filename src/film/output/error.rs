@@ -74,7 +74,7 @@ pub enum OutputError {
     Encoder {
         /// The target.
         path: PathBuf,
-        /// How it ended.
+        /// The way in which the program ended.
         ended: String,
         /// Its last message.
         said: String,

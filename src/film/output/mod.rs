@@ -114,11 +114,11 @@ impl Draft {
 pub struct Written {
     /// The file, or the directory of a sequence.
     pub path: PathBuf,
-    /// How many frames.
+    /// The number of frames.
     pub frames: u64,
-    /// How many bytes, all files together.
+    /// The number of bytes of all files together.
     pub bytes: u64,
-    /// How long the film lasts, in seconds; 0 for a still.
+    /// The duration of the film in seconds, or 0 for a still.
     pub seconds: f64,
     /// Pictures of an earlier, longer sequence that still lie in the directory, after the last frame of this one.
     pub left_over: u64,

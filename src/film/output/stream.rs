@@ -39,7 +39,7 @@ pub(super) struct Closed {
     pub file: Option<PartFile>,
     /// The number of bytes that it has.
     pub bytes: u64,
-    /// How long it lasts.
+    /// Its duration.
     pub seconds: f64,
 }
 

@@ -206,7 +206,7 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), done)
 }
 
-/// How many pairs are near each other, and how many of them touch.
+/// The number of pairs near each other, and of those that touch.
 fn pairs(simulation: &Simulation) -> (usize, usize) {
     let bodies = simulation.bodies();
     let Some(pairs) = simulation.resource::<State>().pairs() else { return (0, 0) };

@@ -14,7 +14,7 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::ErrorEstimate;
 use jostle_engine::tick::State;
 
-/// How many times as stiff.
+/// The factor of the stiffness.
 const STIFFER: f64 = 4.0;
 /// Its error over the difference: `1/(1 - 1/sqrt(STIFFER))`.
 const LEFT: f64 = 2.0;

@@ -24,7 +24,7 @@ use jostle_engine::simulation::{Plan, Simulation};
 use jostle_film::raster::Diagram;
 use scene::{Compared, Scene};
 
-/// How errors are measured, in words.
+/// The measure of errors, in words.
 pub const NORM: &str = "the greater of two shares. One is the greatest distance of any point of a body from the reference, \
 over how far the body goes. The other is the root mean square over time of the difference of its velocity, over how fast it is";
 

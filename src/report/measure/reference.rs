@@ -35,7 +35,7 @@ const MOST_DOUBLINGS: u32 = 12;
 /// The properties of the reference run.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// How it was made.
+    /// The way in which it was made.
     pub words: String,
     /// Its own error is no larger, in the norm of the settings.
     pub floor: f64,

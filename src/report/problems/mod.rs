@@ -243,7 +243,7 @@ pub struct Problem {
     pub law: &'static str,
     /// The source of the law.
     pub source: &'static str,
-    /// How smooth the forces are.
+    /// The smoothness of the forces.
     pub class: Class,
     /// A tick in seconds from which on the error falls as expected. Samples are whole multiples of it, unless the class
     /// depends on the phase. Then any tick will do, and the state nearest to the sample is compared.

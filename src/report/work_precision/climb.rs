@@ -57,7 +57,7 @@ struct Climber<I: Iterator<Item = f64>> {
     ticks: std::iter::Peekable<I>,
     trials: Vec<f64>,
     settings: Vec<Setting>,
-    /// How many of the settings are trials; they come first.
+    /// The number of trials among the settings: they come first.
     trials_of_use: usize,
     /// Seconds and tick of the last one.
     last: Option<(f64, f64)>,
@@ -153,7 +153,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         Ok(())
     }
 
-    /// Why it should go no further.
+    /// The reason for which it should go no further.
     fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
         let Some(next) = self.ticks.peek().copied() else {
             return Some("its ladder has no finer ticks".to_owned());

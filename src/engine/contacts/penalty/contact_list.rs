@@ -238,13 +238,13 @@ impl ContactList {
         path < self.due[block]
     }
 
-    /// Which contacts of a block are asleep.
+    /// The contacts of a block that are asleep.
     #[inline(always)]
     pub(super) fn asleep_in(&self, block: usize) -> u8 {
         self.asleep.get(block).copied().unwrap_or(0)
     }
 
-    /// Which contacts of a block are there and not asleep.
+    /// The contacts of a block that exist and are not asleep.
     #[inline(always)]
     pub(super) fn awake_in(&self, block: usize) -> u8 {
         there(self.len - BLOCK * block) & !self.asleep_in(block)
@@ -427,13 +427,13 @@ impl ListPart<'_> {
         self.asleep.is_empty() && self.looked_at.is_empty() && self.awake.is_none()
     }
 
-    /// Which contacts of a block are there.
+    /// The contacts of a block that exist.
     #[inline(always)]
     pub fn there_in(&self, block: usize) -> u8 {
         there(self.count_in(block))
     }
 
-    /// Which contacts of a block are there, not asleep, and have to be looked at.
+    /// The contacts of a block that exist, are not asleep, and need a look.
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
         let looked_at = self.looked_at.get(block).copied().unwrap_or(u8::MAX);

@@ -49,7 +49,7 @@ pub(super) fn remark(schedule: &SearchSchedule, ticks: u64) -> Option<String> {
 /// The result of a search.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Found {
-    /// Something was laid to rest.
+    /// The search laid a body to rest.
     pub rest: bool,
     /// All contacts of some large island stop.
     pub stops: bool,

@@ -62,7 +62,7 @@ impl OfBodies for Trails {
 /// The past positions of bodies.
 struct Tracks {
     shown: Shown,
-    /// How long a trail is, in seconds.
+    /// The length of a trail, in seconds.
     seconds: f64,
     /// The most points of a trail.
     points: usize,

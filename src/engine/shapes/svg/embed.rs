@@ -50,7 +50,7 @@ impl Embed for Drawings {
     }
 }
 
-/// How large it becomes.
+/// Its size in the scene.
 fn size(shape: &SvgShape) -> Result<Size, Wrong> {
     let numbers = [("height", shape.height), ("unit", shape.unit), ("tolerance", shape.tolerance)];
     for (field, length) in numbers {

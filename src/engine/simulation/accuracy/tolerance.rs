@@ -49,7 +49,7 @@ struct Climb {
     wary: bool,
     /// The finest that is tried.
     finest: f64,
-    /// How much finer than the last trial the final run may be.
+    /// The greatest factor by which the final run is finer than the last trial.
     trusted: f64,
 }
 
