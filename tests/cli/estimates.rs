@@ -49,7 +49,7 @@ fn a_beginning_without_a_touch_tells_of_the_beginning_alone() {
     assert!(notes.contains("in which nothing touches") && notes.contains("--estimate"), "{notes}");
     let verdict = ended["card"]["verdict"].as_str().unwrap();
     assert!(
-        verdict.starts_with("Trust energy (") && verdict.contains("only the time before was run again"),
+        verdict.starts_with("Trust energy (") && verdict.contains("Runs with finer steps cover only the time before"),
         "{verdict}"
     );
     let ended = folder.jostle("run late.ron --json --estimate").code(0).json().remove(0);

@@ -418,7 +418,7 @@ fn under_dashpot_restitution_falls_with_the_number_of_atoms_that_land() {
     let notes = load(&format!("Scene(format: 1, clock: (duration: 1, tick: 1e-3), {row}")).card().notes;
     assert!(
         notes.iter().any(|note| note
-            .contains("a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times")),
+            .contains("A body that lands on n atoms at once rebounds less. Its damping ratio is up to sqrt(n) times")),
         "{notes:?}"
     );
 }
