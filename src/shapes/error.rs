@@ -152,7 +152,7 @@ impl fmt::Display for ShapeError {
                 write!(text, "sides {first} and {second} meet at ({}, {})", at.x, at.y)
             }
             Self::NotConvex { point } => write!(text, "the outline bends inwards at point {point}"),
-            Self::NotFinite { quantity } => write!(text, "{quantity} is not a finite number"),
+            Self::NotFinite { quantity } => write!(text, "{quantity} is NaN or infinite"),
             Self::OutOfRange { quantity, found } => {
                 write!(text, "{quantity} is {found} m: sizes lie between 1e-75 m and 1e75 m")
             }

@@ -49,7 +49,7 @@ fn names_and_words_are_explained() {
         ("energy.residual", "is a channel"),
         ("tolerance", "`clock.tolerance` is a field of the section `clock`"),
         ("duration", "Length of the run"),
-        ("events", "When jumps of the forces take place"),
+        ("events", "The moments at which forces jump"),
         ("horizon", "until which places are known"),
         ("Reference", "the smallest error there is"),
         ("events located", "the number of steps that ended at a jump of a force"),

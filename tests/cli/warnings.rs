@@ -59,7 +59,7 @@ fn the_advised_tick_helps() {
     for tick in ["5ms", "25ms"] {
         let ended = folder.jostle(&format!("run bounce.ron --tick {tick}"));
         let line = ended.err.lines().find(|line| line.starts_with("warning: ")).unwrap();
-        let advice = line.split("use --tick ").nth(1).unwrap();
+        let advice = line.split("Use --tick ").nth(1).unwrap();
         let again = folder.jostle(&format!("run bounce.ron --tick {advice}")).code(0);
         assert!(!again.err.contains("warning: "), "{again:#?}");
     }
@@ -81,7 +81,7 @@ fn the_advice_suits_the_run() {
     let said = |flags: &str| folder.jostle(&format!("run bounce.ron {flags}")).code(0).err;
     let euler = said("--method ExplicitEuler --duration 0.3");
     assert!(
-        euler.contains("use --method VelocityVerlet") && euler.contains("Use `--method VelocityVerlet`."),
+        euler.contains("Use --method VelocityVerlet") && euler.contains("Use `--method VelocityVerlet`."),
         "{euler}"
     );
     assert!(euler.contains("(none is stable)") && !euler.contains("--tick"), "{euler}");

@@ -41,7 +41,7 @@ pub(super) fn remark(schedule: &SearchSchedule, ticks: u64) -> Option<String> {
     (waited > 0).then(|| {
         format!(
             "contacts: in {waited} of {ticks} ticks more than {MANY} contacts were not at rest. The engine did not look for \
-             rest in these ticks, and springs alone held friction. It did so in the other ticks"
+             rest in these ticks, and springs alone held friction. It looked for rest in the others"
         )
     })
 }

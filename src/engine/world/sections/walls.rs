@@ -88,7 +88,7 @@ impl JsonSchema for Heights {
                     "of": text("The height as a function of `x`, in m."),
                     "from": length,
                     "to": length,
-                    "pieces": { "type": ["number", "string"], "description": "How many pieces it has." },
+                    "pieces": { "type": ["number", "string"], "description": "The number of its pieces." },
                 },
                 "required": ["of", "from", "to", "pieces"],
                 "additionalProperties": false,
