@@ -223,7 +223,8 @@ fn checked(text: &str) -> Result<String, String> {
         Some((head, sum)) => {
             let text = format!("{head}{rest}");
             let fits = sum == format!("{:016x}", of_bytes(text.bytes()));
-            fits.then_some(text).ok_or_else(|| format!("it does not fit its check sum, so it was cut or changed: {again}"))
+            fits.then_some(text)
+                .ok_or_else(|| format!("it does not fit its check sum, so it was cut or changed: {again}"))
         }
         None if head.contains(&format!(",{SWEEP}")) => Err(format!("it has no check sum: {again}")),
         None => Ok(text.to_owned()),

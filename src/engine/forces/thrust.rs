@@ -195,7 +195,7 @@ impl ThrustForce {
                 format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
             }
         };
-        let what = format!("the scene asks `{}` to act {times}. In whole ticks it {came}", self.path);
+        let what = format!("`{}` ought to act {times}. In whole ticks it {came}", self.path);
         Some(Departure { what, remedy: REMEDY, share: share.abs() })
     }
 
