@@ -57,8 +57,8 @@ The output has a line for each scene:
   broken     an expectation does not hold
   refused    the scene is wrong
   failed     the run went wrong, or with --strict the verdict is `Do not trust it`
-  skipped    a file of a folder that is no scene, or a part that other scenes include: it has
-             no mistakes of syntax and no `clock`
+  skipped    a file of a folder without a `clock` and without mistakes of syntax: it is no scene,
+             or a part that other scenes include
 
 Exit codes: 0 all good, 1 broken or refused, 2 command line wrong, 3 failed.";
 

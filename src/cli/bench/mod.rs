@@ -38,7 +38,7 @@ pub(super) struct Bench {
     /// Make rounds short, for a first look
     #[arg(long)]
     quick: bool,
-    /// Begin to measure after this time of the physics, such as 0.5 or 20ms: when a heap has settled, say
+    /// Begin to measure after this time of the physics, such as 0.5 or 20ms, when a heap has settled
     #[arg(long, value_name = "T", value_parser = flags::moment, default_value = "0", allow_negative_numbers = true)]
     from: f64,
     #[command(flatten)]

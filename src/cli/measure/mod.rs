@@ -80,11 +80,8 @@ that begins very near to it. Then each method runs the scene with ticks from abo
 is always next. A method ends if its error is that of the reference, and all end if the budget is used up. If the first tick of a \
 method does well, the method tries longer ones too.
 
-An error is a share of the motion, the greater one of two. The first is the greatest distance of any point of a body from \
-the reference, at up to a hundred moments, over how far the body goes. The second is the root mean square over these \
-moments of the difference of its velocity, over how fast the body is. The sign `<` marks errors below three times that of the \
-reference, which are not known better. If the motion is chaotic, the command compares runs until the time at which the reference \
-loses it, and names this time. For the rest of the run, it compares means over time and over all bodies (`beyond`).
+An error is a share of the motion, the greater one of two, from up to a hundred moments. The first is the greatest distance of any point of a body from the reference, over how far the body goes. The second is the root mean square of the difference of its velocity, over how fast the body is. The sign `<` marks errors below three times that of the \
+reference, which are not known better. If the motion is chaotic, the command compares runs until the reference loses it, and names this time. For the rest of the run, it compares means over time and over all bodies (`beyond`).
 
 The cost is the time of the fastest of three to nine runs that do nothing else. A star marks settings that no other setting \
 beats: none is more exact for less.
