@@ -44,7 +44,9 @@ Examples:
   jostle report kepler cradle gas -o three   two problems and a hard case
   jostle report -o report --peers peers.csv  with the curves of other engines
 
-Each problem has an exact answer. Each method runs it at several ticks, and the report tells the error and the cost of each. It also names the cheapest settings for errors of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold), and the grade of each method. The command finds errors on all cores. Then it times one run after the other, and takes the least of several times. \
+Each problem has an exact answer. Each method runs it at several ticks, and the report tells the error and the cost of each. \
+It also names the cheapest settings for errors of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold), and the grade of each method. \
+The command finds errors on all cores. Then it times one run after the other, and takes the least of several times. \
 The report lists all runs that failed, with their reasons.
 
 Hard cases are scenes that break engines. Each value stands beside its threshold and the source of the threshold. --quick leaves \

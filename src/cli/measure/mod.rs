@@ -76,12 +76,16 @@ Examples:
   jostle measure example:kepler --cost evaluations --json    a cost that is the same on every computer, for a program
 
 A reference run comes first: Dop853 with located events. Two more runs give its own error: one with a greater tolerance, and one \
-that begins very near to it. Then each method runs the scene with ticks from about twice the critical one down by factors of two. The cheapest run of all \
+that begins very near to it. Then each method runs the scene with ticks from about twice the critical one down by factors of \
+two. The cheapest run of all \
 is always next. A method ends if its error is that of the reference, and all end if the budget is used up. If the first tick of a \
 method does well, the method tries longer ones too.
 
-An error is a share of the motion, the greater one of two, from up to a hundred moments. The first is the greatest distance of any point of a body from the reference, over how far the body goes. The second is the root mean square of the difference of its velocity, over how fast the body is. The sign `<` marks errors below three times that of the \
-reference, which are not known better. If the motion is chaotic, the command compares runs until the reference loses it, and names this time. For the rest of the run, it compares means over time and over all bodies (`beyond`).
+An error is a share of the motion, the greater one of two, from up to a hundred moments. The first is the greatest distance \
+of any point of a body from the reference, over how far the body goes. The second is the root mean square of the difference \
+of its velocity, over how fast the body is. The sign `<` marks errors below three times that of the \
+reference, which are not known better. If the motion is chaotic, the command compares runs until the reference loses it, and \
+names this time. For the rest of the run, it compares means over time and over all bodies (`beyond`).
 
 The cost is the time of the fastest of three to nine runs that do nothing else. A star marks settings that no other setting \
 beats: none is more exact for less.

@@ -92,7 +92,8 @@ DIR/table.runs holds all finished runs. If you give the command of an interrupte
 
 DIR/table.csv has a row for each run. Its first columns are the values that vary and the end of the run. Then follow the \
 expectations that hold, the energy residual, and its share of the energy that changed form. The deepest overlap, the tick and the \
-state hash come next. Each channel of the scene's sensors has its last, least and greatest value, over the film's frames and the end. The row of a run that fails holds the reason.
+state hash come next. Each channel of the scene's sensors has its last, least and greatest value, over the film's frames and \
+the end. The row of a run that fails holds the reason.
 
 The exit code is that of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 command line wrong, 3 run gone wrong.";
 
