@@ -85,7 +85,7 @@ fn a_resource_that_ticks_need_is_named_when_it_is_gone() {
                 let failure = ran.expect_err(message);
                 assert!(matches!(failure.wrong, Wrong::Gone(_)), "{failure:?}");
                 let said = failure.to_string();
-                assert!(said.contains(message) && said.contains("put it back"), "{said}");
+                assert!(said.contains(message) && said.contains("Put it back"), "{said}");
                 assert_eq!(simulation.failure(), Some(&failure));
                 if simulation.contains_resource::<State>() {
                     ask_everything(&mut simulation);
