@@ -13,7 +13,7 @@ use bevy_ecs::prelude::*;
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
 use bevy_transform::components::Transform;
 use glam::DVec2;
-use jostle::bevy::{Pace, PhysicsPlugin, Run, SyncTransforms};
+use jostle::bevy::{Pace, PhysicsPlugin, RunStatus, SyncTransforms};
 use jostle::scene::Source;
 use jostle::tick::State;
 use jostle::world::{Atom, MaterialIndex, Name, NewBody};
@@ -49,13 +49,13 @@ fn throw(world: &mut World, mut thrown: Local<bool>) {
 }
 
 /// Ends the app with the scene, or when the scene cannot go on.
-fn leave(run: Res<Run>, mut exit: MessageWriter<AppExit>) {
+fn leave(run: Res<RunStatus>, mut exit: MessageWriter<AppExit>) {
     match run.trouble() {
         Some(trouble) => {
             eprintln!("{trouble}");
             exit.write(AppExit::error());
         }
-        None if matches!(*run, Run::Ended) => _ = exit.write(AppExit::Success),
+        None if matches!(*run, RunStatus::Ended) => _ = exit.write(AppExit::Success),
         None => (),
     }
 }

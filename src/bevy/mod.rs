@@ -2,11 +2,11 @@
 //!
 //! A tick always lasts the physics clock's `dt`, whatever the app's timestep. So the bits are those of a headless run. The app
 //! decides only *when* ticks run, and [`Pace`] decides how many. Either the physics keeps to the clock of the game, or each fixed
-//! timestep has one tick. The resource [`Run`] tells how the run goes, and nothing panics.
+//! timestep has one tick. The resource [`RunStatus`] tells how the run goes, and nothing panics.
 //!
 //! ```
 //! use bevy_app::{App, FixedPostUpdate};
-//! use jostle::bevy::{Pace, PhysicsPlugin, Run};
+//! use jostle::bevy::{Pace, PhysicsPlugin, RunStatus};
 //! use jostle::{scene::Source, tick::State};
 //!
 //! let scene = r#"Scene(
@@ -19,7 +19,7 @@
 //! app.add_plugins(PhysicsPlugin::new(Source::new("fall.ron", scene), Pace::Free));
 //! // With Bevy's `TimePlugin`, the app does this by itself.
 //! app.world_mut().run_schedule(FixedPostUpdate);
-//! assert!(matches!(app.world().resource::<Run>(), Run::Running));
+//! assert!(matches!(app.world().resource::<RunStatus>(), RunStatus::Running));
 //! assert_eq!(app.world().resource::<State>().clock().ticks, 1);
 //! ```
 
@@ -58,7 +58,7 @@ pub enum Pace {
 
 /// How the run of a scene in an app goes.
 #[derive(Resource, Clone, Debug)]
-pub enum Run {
+pub enum RunStatus {
     /// Each `FixedPostUpdate` runs what is due.
     Running,
     /// The scene's duration is over. A run that shall not end overrides the duration: [`Overrides::duration`].
@@ -76,7 +76,7 @@ pub enum Run {
     },
 }
 
-impl Run {
+impl RunStatus {
     /// The trouble of the run in words; `None` if there is none.
     pub fn trouble(&self) -> Option<String> {
         match self {
@@ -102,7 +102,7 @@ struct Elapsed(Duration);
 
 /// Reads a scene with the standard plugins into the app and runs it in `FixedPostUpdate`. One scene per app.
 ///
-/// The resource [`Run`] tells how the run goes. [`PhysicsPlugin::install`] does the same and returns the scene's mistakes.
+/// The resource [`RunStatus`] tells how the run goes. [`PhysicsPlugin::install`] does the same and returns the scene's mistakes.
 #[derive(Clone, Debug)]
 pub struct PhysicsPlugin {
     /// The scene.
@@ -126,11 +126,11 @@ impl PhysicsPlugin {
     /// # Errors
     /// All mistakes of the scene, with their places; overrides that cannot be; a second scene for one app.
     pub fn install(&self, app: &mut App) -> Result<(), SceneErrors> {
-        if app.world().contains_resource::<Run>() {
+        if app.world().contains_resource::<RunStatus>() {
             let error = SceneError::new("", "this app has a scene already, and takes only one");
             return Err(SceneErrors::new(self.source.clone(), vec![error], Vec::new()));
         }
-        app.insert_resource(Run::Running);
+        app.insert_resource(RunStatus::Running);
         let plugins = |app: &mut App| {
             crate::plugins::standard(app);
             (self.plugins)(app);
@@ -138,7 +138,7 @@ impl PhysicsPlugin {
         let ticks = simulation::read(app, &self.source, plugins)
             .and_then(|header| simulation::begin(app.world_mut(), &self.source, &header, &self.overrides));
         let ticks = ticks.inspect_err(|errors| {
-            app.insert_resource(Run::Refused(errors.clone()));
+            app.insert_resource(RunStatus::Refused(errors.clone()));
         })?;
         let pace = self.pace;
         app.insert_resource(End(ticks)).init_resource::<Elapsed>();
@@ -150,7 +150,7 @@ impl PhysicsPlugin {
 impl Plugin for PhysicsPlugin {
     fn build(&self, app: &mut App) {
         if let Err(errors) = self.install(app) {
-            app.insert_resource(Run::Refused(errors));
+            app.insert_resource(RunStatus::Refused(errors));
         }
     }
 
@@ -166,9 +166,9 @@ pub fn timestep(world: &World) -> Duration {
 }
 
 fn tick(world: &mut World, pace: Pace) {
-    let Some(run) = world.get_resource::<Run>() else { return };
+    let Some(run) = world.get_resource::<RunStatus>() else { return };
     let now = std::mem::discriminant(run);
-    if !matches!(run, Run::Running | Run::OutOfStep { .. }) {
+    if !matches!(run, RunStatus::Running | RunStatus::OutOfStep { .. }) {
         return;
     }
     let (ticks, dt) = (world.resource::<State>().clock().ticks, world.resource::<State>().clock().dt);
@@ -186,13 +186,13 @@ fn tick(world: &mut World, pace: Pace) {
         }
     };
     let next = match (due.map(|due| step(world, due.min(left))), pace) {
-        (None, Pace::Checked(fixed) | Pace::SameClock(fixed)) => Run::OutOfStep { fixed: fixed(world), tick: dt },
-        (Some(Err(failure)), _) => Run::Failed(failure),
+        (None, Pace::Checked(fixed) | Pace::SameClock(fixed)) => RunStatus::OutOfStep { fixed: fixed(world), tick: dt },
+        (Some(Err(failure)), _) => RunStatus::Failed(failure),
         _ if world.resource::<State>().clock().ticks >= world.resource::<End>().0 => {
             observe_all(world);
-            Run::Ended
+            RunStatus::Ended
         }
-        _ => Run::Running,
+        _ => RunStatus::Running,
     };
     // Systems that tell users about trouble look for changes of the resource, so it must not change in every tick.
     if std::mem::discriminant(&next) != now {

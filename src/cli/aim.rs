@@ -3,13 +3,13 @@
 use std::sync::Arc;
 
 use super::Exit;
-use super::film::Order;
+use super::film::FilmRequest;
 use super::progress_bar::Progress;
 use super::say::say;
 use crate::cli::author;
 use crate::forces::spring::SpringForce;
 use crate::joints::Joint;
-use crate::raster::{Bounds, Camera, Panel};
+use crate::raster::{Camera, Panel, WorldRectangle};
 use crate::record::Schedule;
 use crate::record::follow_camera::Follower;
 use crate::record::legend;
@@ -31,7 +31,7 @@ pub(super) struct Aim {
     pub panel: Option<Panel>,
 }
 
-impl Order<'_> {
+impl FilmRequest<'_> {
     /// The camera and the plots of the scene, in a picture whose full size is `size` pixels. `step` is the time between
     /// frames in seconds of film. A camera that fits everything needs the whole motion beforehand, and so do the axes
     /// of plots. So the scene is first run without drawing, which costs time but no memory.
@@ -72,7 +72,7 @@ impl Order<'_> {
                 (camera, Some(Follower::new(&follow.of, smoothing, step)))
             }
             CameraChoice::Fit(fit) => {
-                let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
+                let nothing = WorldRectangle { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
                 (Camera::fit(bounds.unwrap_or(nothing), fit.margin.si(), stage), None)
             }
         };
@@ -97,7 +97,7 @@ impl Order<'_> {
         ahead: &mut Simulation,
         schedule: &Schedule,
         mut sampler: Option<Sampler>,
-    ) -> (Option<Bounds>, Option<Vec<Plot>>) {
+    ) -> (Option<WorldRectangle>, Option<Vec<Plot>>) {
         let progress = Progress::new(schedule.frames(), "frames looked ahead", self.silent);
         let mut recorder = Recorder::bare();
         // The bounds of all frames, and of those before anything leaves at enormous speed.
@@ -112,9 +112,9 @@ impl Order<'_> {
                 wrong = true;
                 break;
             };
-            if let Some(now) = Bounds::of_frame(&frame) {
-                let now = anchors(ahead).fold(now, |seen, at| seen.union(Bounds { low: at, high: at }));
-                all = Some(all.map_or(now, |before: Bounds| before.union(now)));
+            if let Some(now) = WorldRectangle::of_frame(&frame) {
+                let now = anchors(ahead).fold(now, |seen, at| seen.union(WorldRectangle { low: at, high: at }));
+                all = Some(all.map_or(now, |before: WorldRectangle| before.union(now)));
                 if tame.is_none() {
                     room = WILDEST_GROWTH * extent(now);
                 }
@@ -141,7 +141,7 @@ impl Order<'_> {
     }
 }
 
-fn extent(bounds: Bounds) -> f64 {
+fn extent(bounds: WorldRectangle) -> f64 {
     (bounds.high - bounds.low).max_element()
 }
 

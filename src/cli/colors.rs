@@ -7,11 +7,11 @@ use super::load::Request;
 use crate::raster::Theme;
 use crate::record::sections::LookSection;
 use crate::scene::Source;
-use crate::scene::embed::{Door, Wanted, told};
+use crate::scene::embed::{Door, FileRequest, told};
 use crate::simulation::Simulation;
 
 /// A file with the colours of a film.
-const THEME: Wanted = Wanted { most: 1 << 20, noun: "a theme", smaller: "a theme is a short text" };
+const THEME: FileRequest = FileRequest { most: 1 << 20, noun: "a theme", smaller: "a theme is a short text" };
 
 /// The theme in the scene.
 fn of_scene(simulation: &Simulation) -> Option<&str> {

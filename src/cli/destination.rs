@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use super::Exit;
 use super::load::Request;
 use super::say::say;
-use crate::output::{OutputError, Target};
+use crate::output::{OutputError, OutputTarget};
 
 /// Endings of what `render` writes.
 const PICTURES: [&str; 6] = ["gif", "png", "apng", "mp4", "webm", "rgba"];
@@ -29,7 +29,7 @@ pub(super) struct Wish<'a> {
 /// The path of one film.
 #[derive(Debug)]
 pub(super) struct Place {
-    pub target: Target,
+    pub target: OutputTarget,
     /// A directory that the command line names and that may have to be made first. The directory of a single file
     /// is not made: its name is more likely misspelt.
     pub folder: Option<PathBuf>,
@@ -93,7 +93,7 @@ impl Wish<'_> {
                 return Err(format!("{scenes} scenes need a directory: `-o {}/`", better.display()));
             }
         };
-        let target = Target::new(path).map_err(|error| match error {
+        let target = OutputTarget::new(path).map_err(|error| match error {
             OutputError::UnknownFormat { path, .. } => format!(
                 "the ending of `{}` names no format. .gif, .apng, .mp4 and .webm are films. .png is one picture, with --at, \
                  --strip or --sheet. A / at the end means a directory of pictures. .rgba or the name - (standard output) means raw pictures",
@@ -109,7 +109,7 @@ impl Wish<'_> {
         Ok(Place { target, folder })
     }
 
-    fn check(&self, target: &Target) -> Result<(), String> {
+    fn check(&self, target: &OutputTarget) -> Result<(), String> {
         let path = target.path();
         if target.is_standard_output() {
             return match self.still.or(self.png.then_some("--png")) {

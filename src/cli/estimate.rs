@@ -8,7 +8,7 @@ use super::Exit;
 use super::load::Request;
 use super::say::say;
 use crate::cli::author;
-use crate::report::estimate::{self, Effort, Repeated, Wanted};
+use crate::report::estimate::{self, Effort, EstimateRequest, Repeated};
 use crate::scene::Source;
 use crate::simulation::{Overrides, Simulation};
 
@@ -31,13 +31,13 @@ pub(super) struct EstimateFlags {
 }
 
 impl EstimateFlags {
-    fn wanted(self) -> Wanted {
+    fn wanted(self) -> EstimateRequest {
         let effort = match (self.estimate, self.no_estimate) {
             (_, true) => Effort::None,
             (true, false) => Effort::Full,
             (false, false) => Effort::Little,
         };
-        Wanted { effort, rounding: self.rounding, model: self.model }
+        EstimateRequest { effort, rounding: self.rounding, model: self.model }
     }
 
     /// Makes ready for a run that begins.

@@ -12,7 +12,7 @@ use super::say::say;
 use super::squeeze::Squeeze;
 use super::wall_clock::WallClock;
 use super::{Exit, colors};
-use crate::output::{self, Film, FilmSettings, OutputError, Written, sheet};
+use crate::output::{self, Film, FilmSettings, OutputError, WrittenFilm, sheet};
 use crate::raster::{Camera, View};
 use crate::record::Schedule;
 use crate::record::follow_camera::Follower;
@@ -62,7 +62,7 @@ impl Shot {
 }
 
 /// The order of a film.
-pub(super) struct Order<'a> {
+pub(super) struct FilmRequest<'a> {
     pub request: Request<'a>,
     pub source: &'a Source,
     pub overrides: &'a Overrides,
@@ -86,7 +86,7 @@ pub(super) struct Order<'a> {
 /// A film, and the result of the run.
 pub(super) struct Made {
     /// The report of the written film; `None` if the run failed before the first frame.
-    pub written: Option<Written>,
+    pub written: Option<WrittenFilm>,
     pub failure: Option<Failure>,
 }
 
@@ -108,12 +108,12 @@ impl From<OutputError> for Trouble {
 
 /// How pictures are made of frames.
 struct Set<'a> {
-    order: &'a Order<'a>,
+    order: &'a FilmRequest<'a>,
     settings: FilmSettings,
     view: View,
 }
 
-impl Order<'_> {
+impl FilmRequest<'_> {
     /// Runs and draws. A failing run still yields the film so far.
     pub fn make(&self, simulation: &mut Simulation) -> Result<Made, Exit> {
         let film = simulation.film();

@@ -3,7 +3,7 @@
 use bevy_ecs::entity::Entity;
 
 use super::Exit;
-use super::film::{Order, Shot};
+use super::film::{FilmRequest, Shot};
 use super::load::Request;
 use super::say::{number, say};
 use crate::contacts::events::{ContactEvents, Touching, watch};
@@ -18,7 +18,7 @@ const MOST_FRAMES: f64 = 1e6;
 /// The last moment of a run is a product of ticks; what people write differs in the last digits.
 const ROUNDING: f64 = 1e-9;
 
-impl Order<'_> {
+impl FilmRequest<'_> {
     /// The moments to draw, and the seconds of physics between frames, which the clock has to distinguish.
     pub(super) fn moments(&self, simulation: &Simulation, frames_per_second: f64) -> Result<(Schedule, f64), Exit> {
         let film = simulation.film();

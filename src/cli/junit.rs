@@ -116,12 +116,16 @@ fn escaped(text: &str) -> String {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::expect::Outcome;
+    use crate::expect::ExpectationOutcome;
 
     #[test]
     fn what_is_broken_stands_beside_what_holds() {
-        let outcome =
-            |text: &str, holds| Outcome { text: text.into(), holds, measured: "1 < 2 & \"3\"".into(), judged: true };
+        let outcome = |text: &str, holds| ExpectationOutcome {
+            text: text.into(),
+            holds,
+            measured: "1 < 2 & \"3\"".into(),
+            judged: true,
+        };
         let trial = Trial {
             files: Vec::new(),
             verdict: Verdict::Broken,

@@ -12,7 +12,7 @@ use crate::integrate::Methods;
 use crate::record::sections::look::LAYERS;
 use crate::scene::schema::{Choice, Language};
 use crate::scene::suggest::plural;
-use crate::scene::{Known, SceneRegistry, Source, nearest_name};
+use crate::scene::{RegisteredName, SceneRegistry, Source, nearest_name};
 use crate::simulation::Overrides;
 use crate::simulation::Simulation;
 use crate::tick::TickAppExt;
@@ -69,7 +69,7 @@ impl Item {
         Self { name: name.to_owned(), text, more: String::new(), from: String::new() }
     }
 
-    fn of(known: Known) -> Self {
+    fn of(known: RegisteredName) -> Self {
         let (name, text) = (known.name.to_owned(), known.example.to_owned());
         Self { name, text, more: String::new(), from: handed_on(known.origin) }
     }

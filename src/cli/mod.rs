@@ -29,7 +29,7 @@ mod projector;
 mod render;
 mod report;
 mod result;
-mod rows;
+mod row_ticks;
 mod run;
 mod save;
 mod say;
@@ -109,7 +109,7 @@ pub struct CommandLine {
 #[derive(Subcommand, Debug)]
 enum Command {
     /// Run a scene and print its error card; with -o also write its channels as CSV
-    Run(run::Run),
+    Run(run::RunArguments),
     /// Run scenes and draw them: films (GIF, APNG, MP4, WebM, raw), pictures, strips, contact sheets and sequences (PNG)
     Render(render::Render),
     /// Draw channels as a figure: of a scene, or of a table of comma-separated values

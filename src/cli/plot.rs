@@ -14,11 +14,11 @@ use super::progress_bar::Progress;
 use super::say::{number, say};
 use crate::output;
 use crate::raster::{Theme, figure};
-use crate::record::plot::pairs;
+use crate::record::plot::phase_portrait;
 use crate::record::plot::table::{self, Column};
 use crate::record::plot::{Axis, Content, Curve, Plot, Sample, common, with_unit};
 use crate::record::sections::{PlotEntry, PlotsSection};
-use crate::scene::embed::{Wanted, told};
+use crate::scene::embed::{FileRequest, told};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, fits, suggest};
 use crate::sensors::{self, Channels};
@@ -77,8 +77,8 @@ const HEIGHT: u32 = 720;
 const HEIGHT_OF_SEVERAL: u32 = 480;
 
 /// The table that the command plots.
-const TABLE: Wanted =
-    Wanted { most: 256 << 20, noun: "a table of comma-separated values", smaller: "plot fewer rows or columns" };
+const TABLE: FileRequest =
+    FileRequest { most: 256 << 20, noun: "a table of comma-separated values", smaller: "plot fewer rows or columns" };
 
 /// More plots than one picture holds.
 const MOST_PLOTS: usize = 12;
@@ -244,14 +244,16 @@ impl PlotCommand {
         let x = x.unwrap_or(&columns[0].name);
         if self.channels.is_empty() {
             chosen.extend(
-                columns.iter().filter(|column| pairs::beside(x, &column.name).is_some_and(|x| x != column.name)),
+                columns
+                    .iter()
+                    .filter(|column| phase_portrait::beside(x, &column.name).is_some_and(|x| x != column.name)),
             );
         }
-        if let Some(other) = pairs::over_another(x, chosen.iter().map(|column| column.name.as_str())) {
-            let (message, help) = pairs::told(x, other);
+        if let Some(other) = phase_portrait::over_another(x, chosen.iter().map(|column| column.name.as_str())) {
+            let (message, help) = phase_portrait::told(x, other);
             return Err(request.refuse(Exit::Usage, "--x", &message, &help));
         }
-        let beside = |of: &&Column| match pairs::beside(x, &of.name) {
+        let beside = |of: &&Column| match phase_portrait::beside(x, &of.name) {
             Some(own) => column("--x", &own),
             None => Err(request.usage(&format!("--x: {x:?} does not fit the owner of `{}`", of.name))),
         };

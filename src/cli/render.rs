@@ -7,13 +7,13 @@ use clap::Args;
 use super::Exit;
 use super::destination::{Place, Wish, places};
 use super::estimate::EstimateFlags;
-use super::film::{Made, Order, Shot};
+use super::film::{FilmRequest, Made, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::load::Request;
 use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
 use super::side_by_side::all_cores;
-use crate::output::{Target, Written};
+use crate::output::{OutputTarget, WrittenFilm};
 use crate::simulation::Overrides;
 
 /// The command `render`.
@@ -124,7 +124,7 @@ impl Render {
     }
 
     /// The objection of the other flags to a target.
-    fn objection(&self, target: &Target) -> Option<String> {
+    fn objection(&self, target: &OutputTarget) -> Option<String> {
         let path = target.path();
         if self.json && target.is_standard_output() {
             Some(
@@ -145,7 +145,7 @@ impl Render {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
         };
-        let order = Order {
+        let order = FilmRequest {
             request,
             source: &source,
             overrides: &overrides,
@@ -183,8 +183,8 @@ impl Render {
 }
 
 /// Reports the written film.
-fn report(written: &Written, cut: bool) {
-    let Written { path, frames: count, bytes, seconds, left_over } = written;
+fn report(written: &WrittenFilm, cut: bool) {
+    let WrittenFilm { path, frames: count, bytes, seconds, left_over } = written;
     let size = flags::bytes_in_words(*bytes as f64);
     let path = path.display();
     let frames = in_words(*count as usize, "frame", "frames");

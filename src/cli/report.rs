@@ -12,8 +12,8 @@ use crate::output::{flat_picture, write_whole};
 use crate::problems::hard::{self, Case, Judgement};
 use crate::problems::{ALL, Problem};
 use crate::raster::{Theme, draw_diagram};
-use crate::report::document::{self, Judged, Made, Order, Peers, Picture, Sheet};
-use crate::scene::embed::{Wanted, told};
+use crate::report::document::{self, DocumentRequest, Judged, Made, PagePicture, Peers, Sheet};
+use crate::scene::embed::{FileRequest, told};
 use crate::scene::nearest_name;
 
 /// The command `report`.
@@ -55,7 +55,8 @@ out the expensive cases, and the report names them.
 Exit codes: 0 good, 1 a hard case fails (the report is still complete), 2 command line wrong, or a file cannot be read or written.";
 
 /// Curves of other engines.
-const PEERS: Wanted = Wanted { most: 64 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
+const PEERS: FileRequest =
+    FileRequest { most: 64 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
 
 /// The size of diagrams in pixels.
 const SIZE: (u32, u32) = (960, 600);
@@ -77,7 +78,7 @@ impl Report {
             say(&format!("error: `{}` cannot be made: {error}", self.output.display()));
             return Exit::Usage;
         }
-        let order = Order { quick: self.quick };
+        let order = DocumentRequest { quick: self.quick };
         let progress = Progress::new((2 * problems.len() + cases.len()) as u64, "runs of problems", self.quiet);
         let (mut sheets, cases) = order.errors(&problems, &cases, &|| progress.step());
         // The results so far are kept in every case.
@@ -166,7 +167,7 @@ impl Report {
             sheet.settings.all.iter().find(|setting| setting.error().is_some() && setting.seconds.is_some())?;
             let drawn = draw_diagram(&sheet.diagram(&peers.curves(name)), &theme, SIZE).ok()?;
             let (file, shows) = (format!("{name}.png"), format!("Cost against error of {name}"));
-            Some(Picture { file, shows, bytes: flat_picture(&drawn).ok()? })
+            Some(PagePicture { file, shows, bytes: flat_picture(&drawn).ok()? })
         };
         let page = document::page(&Made::here(author::commit()), sheets, cases, peers, &picture);
         for block in &page {

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::Exit;
 use super::load::Request;
 use super::say::{count, print_line, say};
-use crate::expect::Outcome;
+use crate::expect::ExpectationOutcome;
 use crate::report::Card;
 use crate::report::reversal::Reversal;
 use crate::simulation::Simulation;
@@ -69,8 +69,8 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
         say(&format!("warning: {}: {warning}", request.name));
     }
     let outcomes = simulation.outcomes();
-    let broken = |outcome: &&Outcome| !(outcome.holds || cut && !outcome.judged);
-    let broken: Vec<&Outcome> = outcomes.iter().filter(broken).collect();
+    let broken = |outcome: &&ExpectationOutcome| !(outcome.holds || cut && !outcome.judged);
+    let broken: Vec<&ExpectationOutcome> = outcomes.iter().filter(broken).collect();
     if !broken.is_empty() {
         exit = exit.worse(Exit::SceneWrong);
     }
@@ -131,7 +131,7 @@ struct RunResult<'a> {
     seconds_spent: f64,
     bodies: Vec<BodyState>,
     card: &'a Card,
-    expect: &'a [Outcome],
+    expect: &'a [ExpectationOutcome],
     #[serde(skip_serializing_if = "Option::is_none")]
     reverse: Option<&'a Reversal>,
 }
@@ -141,7 +141,7 @@ fn print_json(
     scene: &str,
     simulation: &Simulation,
     card: &Card,
-    expect: &[Outcome],
+    expect: &[ExpectationOutcome],
     reverse: Option<&Reversal>,
 ) -> Exit {
     let (bodies, clock) = (simulation.bodies(), simulation.clock());

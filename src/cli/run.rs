@@ -14,7 +14,7 @@ use super::load::Request;
 use super::pace::Runner;
 use super::progress_bar::Progress;
 use super::result::{self, Detail, Ran};
-use super::rows::Rows;
+use super::row_ticks::Rows;
 use super::save::{Saves, SnapshotFlags, Trouble};
 use super::say::say;
 use super::side_by_side::all_cores;
@@ -29,7 +29,7 @@ use crate::simulation::{Overrides, Plan, Simulation};
 /// The command `run`.
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
-pub(super) struct Run {
+pub(super) struct RunArguments {
     /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE")]
     scene: String,
@@ -86,7 +86,7 @@ Examples:
 
 The card and all messages go to standard error (`2> card.txt` keeps them). Results for programs go to standard output.";
 
-impl Run {
+impl RunArguments {
     fn overrides(&self, plan: Option<Plan>) -> Overrides {
         let threads = Some(self.threads.unwrap_or_else(all_cores));
         Overrides { plan, threads, rate: self.fps, ..self.overrides.overrides() }

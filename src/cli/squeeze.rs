@@ -1,10 +1,10 @@
 //! `--max-size`: a GIF that fits. Colours, size and rate are lowered step by step, in an order that keeps the film
 //! worth watching. The physics is run once, and the frames come from a spool.
 
-use super::film::{Order, Trouble};
+use super::film::{FilmRequest, Trouble};
 use super::flags::bytes_in_words;
 use super::say::{number, say};
-use crate::output::{self, Draft, Film, FilmSettings, OutputError, Written};
+use crate::output::{self, Draft, Film, FilmSettings, OutputError, WrittenFilm};
 use crate::raster::View;
 
 /// A film within a size.
@@ -76,9 +76,9 @@ impl Squeeze<'_> {
     /// Makes the best film that fits. `play` shows every so manieth frame to a film.
     pub fn make(
         &self,
-        order: &Order,
+        order: &FilmRequest,
         mut play: impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
-    ) -> Result<Written, Trouble> {
+    ) -> Result<WrittenFilm, Trouble> {
         // Only the best one gets its name, and the earlier film stays until then.
         let mut best: Option<(usize, Draft)> = None;
         // All rungs before this one are known to be too large.
@@ -124,7 +124,7 @@ impl Squeeze<'_> {
     /// Enlarges the pictures of a fitting film as far as possible, because the rungs of the ladder are far apart.
     fn refine(
         &self,
-        order: &Order,
+        order: &FilmRequest,
         mut rung: Rung,
         mut draft: Draft,
         play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
@@ -150,7 +150,7 @@ impl Squeeze<'_> {
 
     fn attempt(
         &self,
-        order: &Order,
+        order: &FilmRequest,
         rung: Rung,
         play: &mut impl FnMut(&mut dyn Film, u64) -> Result<(), Trouble>,
     ) -> Result<Draft, Trouble> {

@@ -4,7 +4,7 @@ use crate::SimulationExt;
 use std::path::PathBuf;
 
 use super::Exit;
-use crate::expect::Outcome;
+use crate::expect::ExpectationOutcome;
 use crate::scene::SceneErrors;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
@@ -54,7 +54,7 @@ pub(super) struct Trial {
     pub reason: String,
     /// The mistakes of a scene that was refused.
     pub errors: Option<SceneErrors>,
-    pub expect: Vec<Outcome>,
+    pub expect: Vec<ExpectationOutcome>,
     pub warnings: Vec<String>,
     /// The hash of the last state.
     pub hash: Option<String>,
@@ -118,7 +118,7 @@ impl Trial {
 }
 
 /// A broken expectation in a line.
-pub(super) fn told(outcome: &Outcome) -> String {
+pub(super) fn told(outcome: &ExpectationOutcome) -> String {
     let text: Vec<&str> = outcome.text.split_whitespace().collect();
     format!("{}: {}", text.join(" "), outcome.measured)
 }

@@ -16,7 +16,7 @@ const RESERVED: [&str; 2] = ["randomise", "scene"];
 
 /// Registers the sections that describe the run and the film, their words, and the names that are kept for later.
 pub fn run_and_film(app: &mut App) {
-    integrate::clock::plugin(app);
+    integrate::clock_section::plugin(app);
     record::sections::plugin(app);
     // The painter has its names of colours, and the language checks against them.
     for color in color_names::COLOR_NAMES {

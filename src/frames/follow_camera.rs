@@ -55,7 +55,7 @@ mod tests {
     use std::sync::Arc;
 
     use super::*;
-    use crate::frame::{BodyLook, Cast, Pose};
+    use crate::frame::{BodyLook, BodyPose, Cast};
 
     /// The positions of a camera that follows a body along x, frame by frame.
     fn looks(smoothing: f64, step: f64, places: impl Iterator<Item = f64>) -> Vec<f64> {
@@ -63,7 +63,7 @@ mod tests {
         let cast = Arc::new(Cast { bodies: vec![look], ..Cast::default() });
         let mut follower = Follower::new("cart", smoothing, step);
         let look = |x| {
-            let poses = vec![Pose { position: DVec2::new(x, 1.0), angle: 0.0 }];
+            let poses = vec![BodyPose { position: DVec2::new(x, 1.0), angle: 0.0 }];
             let mut frame = Frame { time: 0.0, cast: cast.clone(), poses, marks: Vec::new(), center: None };
             follower.aim(&mut frame);
             frame.center.expect("a body to follow").x

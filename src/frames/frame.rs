@@ -77,7 +77,7 @@ pub struct Cast {
 
 /// The position and angle of a body.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Pose {
+pub struct BodyPose {
     /// Centre of mass in metres.
     pub position: DVec2,
     /// Angle in radians, counter-clockwise, continuous (not wrapped).
@@ -92,7 +92,7 @@ pub struct Frame {
     /// The bodies, walls and title.
     pub cast: Arc<Cast>,
     /// One pose for each body of the cast, in the same order.
-    pub poses: Vec<Pose>,
+    pub poses: Vec<BodyPose>,
     /// The marks of the layers, from back to front.
     pub marks: Vec<Mark>,
     /// The centre of a moving camera, in metres. `None`: the centre of the film's camera.

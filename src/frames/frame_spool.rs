@@ -10,7 +10,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::frame::{Cast, Frame, Pose};
+use super::frame::{BodyPose, Cast, Frame};
 use super::mark::{Corner, Mark, MarkShape};
 
 /// Bytes of the length before and after each frame.
@@ -183,7 +183,7 @@ fn read(file: &mut impl Read, casts: &[Arc<Cast>]) -> io::Result<Frame> {
     let cast = casts.get(number(rest)? as usize).cloned().ok_or(io::ErrorKind::InvalidData)?;
     let time = real(rest)?;
     let poses = (0..number(rest)?)
-        .map(|_| Ok(Pose { position: point(rest)?, angle: real(rest)? }))
+        .map(|_| Ok(BodyPose { position: point(rest)?, angle: real(rest)? }))
         .collect::<io::Result<Vec<_>>>()?;
     let marks = (0..number(rest)?).map(|_| mark(rest)).collect::<io::Result<Vec<_>>>()?;
     Ok(Frame { time, cast, poses, marks, center: None })
@@ -224,7 +224,7 @@ mod tests {
 
     fn frames() -> Vec<Frame> {
         let (one, two) = (Arc::new(Cast::default()), Arc::new(Cast { title: "other".into(), ..Cast::default() }));
-        let pose = |x| Pose { position: DVec2::new(x, -0.0), angle: 1.0 / 3.0 };
+        let pose = |x| BodyPose { position: DVec2::new(x, -0.0), angle: 1.0 / 3.0 };
         let mark = |shape, color: Option<&str>| Mark { shape, color: color.map(str::to_owned) };
         let marks = vec![
             mark(MarkShape::Line(DVec2::X, DVec2::Y), None),

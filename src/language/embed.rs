@@ -6,7 +6,7 @@ use std::any::Any;
 use std::path::Path;
 use std::sync::Arc;
 
-pub use super::macros::{Door, Wanted, told};
+pub use super::macros::{Door, FileRequest, told};
 
 /// The place in a scene of an entry that names a file.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -56,7 +56,7 @@ pub trait Embed {
     ///
     /// # Errors
     /// An error if the file cannot be read, or does not suit the entry.
-    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit>;
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, UnfitFile>;
 }
 
 /// The content of a file, in the form that the scene takes.
@@ -73,7 +73,7 @@ pub struct Embedded {
 }
 
 /// Why a file does not do.
-pub struct Unfit {
+pub struct UnfitFile {
     /// The mistake.
     pub message: String,
     /// The remedy.

@@ -8,7 +8,7 @@ use super::error::{SceneError, SceneErrors};
 use super::explain::{self, Walked};
 use super::lexer::{lex, skip_blank};
 use super::macros::{self, Tables};
-use super::outline::{Kind, Mention, Outline};
+use super::outline::{Mention, NameKind, Outline};
 use super::registry::{Arity, ReadEntries, ReadSection, Reader, Registry, entry_scope};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
@@ -277,7 +277,7 @@ impl<A> Loading<'_, A> {
                 let help = "the name is reserved for a later version; remove the section";
                 self.errors.push(error.at(tree.key(id), "not available yet").with_help(help));
             }
-            Reader::Section(read) => {
+            Reader::Section(read, _) => {
                 let span = tree.span(id);
                 match read(&text[span.clone()]) {
                     Ok(section) => {
@@ -428,7 +428,7 @@ impl<A> Loading<'_, A> {
                 }
             }
         }
-        if outline.complete && report.is_clean() && outline.count(Kind::BODY) == 0 {
+        if outline.complete && report.is_clean() && outline.count(NameKind::BODY) == 0 {
             report.error("", "the scene has no bodies").help(SMALLEST);
         }
         report

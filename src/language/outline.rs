@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::diagnostics::Diagnostics;
 use super::macros::Tables;
-use super::names::{self, Names};
+use super::name_series::{self, Names};
 use super::suggest;
 
 /// Longer names, in bytes, are no names.
@@ -20,12 +20,12 @@ const MOST_EXPLAINED: usize = 30;
 
 /// The kind of thing that a name denotes. Plugins may add kinds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub struct Kind {
+pub struct NameKind {
     noun: &'static str,
     shared: bool,
 }
 
-impl Kind {
+impl NameKind {
     /// Bodies, those of `fill` and `packings` included.
     pub const BODY: Self = Self::new("body");
     /// Walls.
@@ -107,7 +107,7 @@ pub(crate) type Words = BTreeMap<&'static str, BTreeMap<&'static str, bool>>;
 /// order.
 #[derive(Clone, Debug, Default)]
 pub struct Outline {
-    kinds: BTreeMap<Kind, Names>,
+    kinds: BTreeMap<NameKind, Names>,
     sections: Vec<(String, bool)>,
     entries: BTreeMap<String, Vec<Mention>>,
     words: Words,
@@ -128,7 +128,7 @@ impl Outline {
 
     /// Adds a name. `path` is its place relative to the section or entry, such as `"[3].name"`. A name is reported if
     /// it is taken, is empty, or holds one of `* . , "` or a control character. Returns whether the name is good.
-    pub fn declare(&mut self, kind: Kind, name: &str, path: &str) -> bool {
+    pub fn declare(&mut self, kind: NameKind, name: &str, path: &str) -> bool {
         let path = join(&self.scope, path);
         let good = self.is_good(kind, name, &path);
         if good {
@@ -139,21 +139,21 @@ impl Outline {
 
     /// Adds `count` names that begin alike: `gas_0`, `gas_1` and so on for `gas`. The first bad name is reported as by
     /// [`Outline::declare`], and it ends the series. Returns whether all are good.
-    pub fn declare_series(&mut self, kind: Kind, prefix: &str, count: u64, path: &str) -> bool {
+    pub fn declare_series(&mut self, kind: NameKind, prefix: &str, count: u64, path: &str) -> bool {
         let path = join(&self.scope, path);
         let taken = self.rivals(kind).filter_map(|(_, names)| names.first_taken(prefix, count)).min();
         // All are made of the same letters and digits.
-        let odd = (count > 0 && !self.is_good(kind, &names::of_series(prefix, 0), &path)).then_some(0);
+        let odd = (count > 0 && !self.is_good(kind, &name_series::of_series(prefix, 0), &path)).then_some(0);
         let good = odd.or(taken).unwrap_or(count);
         if odd.is_none() && good < count {
-            self.is_good(kind, &names::of_series(prefix, good), &path);
+            self.is_good(kind, &name_series::of_series(prefix, good), &path);
         }
         self.kinds.entry(kind).or_default().add_series(prefix, good, path);
         good == count
     }
 
     /// Whether a name may be added; if not, that is reported.
-    fn is_good(&mut self, kind: Kind, name: &str, path: &str) -> bool {
+    fn is_good(&mut self, kind: NameKind, name: &str, path: &str) -> bool {
         if name.is_empty() {
             self.report.error_at(path.to_owned(), "a name must not be empty".into());
             return false;
@@ -185,8 +185,8 @@ impl Outline {
     }
 
     /// The kinds whose names must differ from those of a kind.
-    fn rivals(&self, kind: Kind) -> impl Iterator<Item = (Kind, &Names)> {
-        let rival = move |other: Kind| other == kind || (kind.shared && other.shared);
+    fn rivals(&self, kind: NameKind) -> impl Iterator<Item = (NameKind, &Names)> {
+        let rival = move |other: NameKind| other == kind || (kind.shared && other.shared);
         self.kinds.iter().map(|(other, names)| (*other, names)).filter(move |(other, _)| rival(*other))
     }
 
@@ -201,23 +201,23 @@ impl Outline {
     }
 
     /// All names of a kind in canonical order. The list is made when it is asked for first, and kept.
-    pub fn names(&self, kind: Kind) -> &[String] {
+    pub fn names(&self, kind: NameKind) -> &[String] {
         self.kinds.get(&kind).map_or(&[], Names::list)
     }
 
     /// The number of names of a kind.
-    pub fn count(&self, kind: Kind) -> usize {
+    pub fn count(&self, kind: NameKind) -> usize {
         self.kinds.get(&kind).map_or(0, Names::len)
     }
 
     /// The place of a name in the canonical order of its kind.
-    pub fn position(&self, kind: Kind, name: &str) -> Option<usize> {
+    pub fn position(&self, kind: NameKind, name: &str) -> Option<usize> {
         self.kinds.get(&kind)?.find(name).map(|(position, _)| position)
     }
 
     /// The indices of all names that fit a pattern, in canonical order. `*` stands for any run of characters, also an
     /// empty one. A pattern without `*` fits the one name that it spells.
-    pub fn matching(&self, kind: Kind, pattern: &str) -> Vec<usize> {
+    pub fn matching(&self, kind: NameKind, pattern: &str) -> Vec<usize> {
         if !pattern.contains('*') {
             return self.position(kind, pattern).into_iter().collect();
         }
@@ -225,7 +225,7 @@ impl Outline {
     }
 
     /// The place of a name; an unknown one is reported at `path` with the nearest known name.
-    pub fn require(&self, kind: Kind, name: &str, path: &str, report: &mut Diagnostics) -> Option<usize> {
+    pub fn require(&self, kind: NameKind, name: &str, path: &str, report: &mut Diagnostics) -> Option<usize> {
         let found = self.position(kind, name);
         if found.is_none() {
             self.report_unknown(&[kind], name, path, report);
@@ -234,7 +234,7 @@ impl Outline {
     }
 
     /// Whether the name belongs to one of these kinds. An unknown name is reported at `path`.
-    pub fn require_any(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Diagnostics) -> bool {
+    pub fn require_any(&self, kinds: &[NameKind], name: &str, path: &str, report: &mut Diagnostics) -> bool {
         let found = kinds.iter().any(|&kind| self.position(kind, name).is_some());
         if !found {
             self.report_unknown(kinds, name, path, report);
@@ -243,7 +243,7 @@ impl Outline {
     }
 
     /// The indices of all names that fit a pattern. If no name fits, the pattern is reported at `path`.
-    pub fn require_matching(&self, kind: Kind, pattern: &str, path: &str, report: &mut Diagnostics) -> Vec<usize> {
+    pub fn require_matching(&self, kind: NameKind, pattern: &str, path: &str, report: &mut Diagnostics) -> Vec<usize> {
         let parts = pattern.matches('*').count();
         if !report.may_compare(path, parts * self.count(kind)) {
             return Vec::new();
@@ -255,7 +255,7 @@ impl Outline {
         found
     }
 
-    fn report_unknown(&self, kinds: &[Kind], name: &str, path: &str, report: &mut Diagnostics) {
+    fn report_unknown(&self, kinds: &[NameKind], name: &str, path: &str, report: &mut Diagnostics) {
         if !self.complete {
             return;
         }
@@ -396,14 +396,14 @@ mod tests {
     fn order_of_declaration_is_the_order() {
         let mut outline = Outline::new();
         for name in ["z", "a", "gas_1", "gas_0"] {
-            outline.declare(Kind::BODY, name, "");
+            outline.declare(NameKind::BODY, name, "");
         }
-        outline.declare(Kind::MATERIAL, "z", "");
-        assert_eq!(outline.position(Kind::BODY, "a"), Some(1));
-        assert_eq!(outline.matching(Kind::BODY, "gas_*"), [2, 3]);
-        assert_eq!(outline.position(Kind::WALL, "a"), None);
+        outline.declare(NameKind::MATERIAL, "z", "");
+        assert_eq!(outline.position(NameKind::BODY, "a"), Some(1));
+        assert_eq!(outline.matching(NameKind::BODY, "gas_*"), [2, 3]);
+        assert_eq!(outline.position(NameKind::WALL, "a"), None);
         assert!(outline.report.is_clean());
-        outline.declare(Kind::WALL, "a", "");
+        outline.declare(NameKind::WALL, "a", "");
         assert!(!outline.report.is_clean());
     }
 }

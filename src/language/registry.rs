@@ -56,7 +56,8 @@ pub type ReadOneSection<A> = fn(&str) -> Result<Box<dyn ReadSection<A>>, Fault>;
 pub type MakeEntries<A> = fn() -> Box<dyn ReadEntries<A>>;
 
 pub(crate) enum Reader<A> {
-    Section(ReadOneSection<A>),
+    /// A section that is read as a whole, and its schema.
+    Section(ReadOneSection<A>, Describe),
     Entries(Arity, BTreeMap<&'static str, EntryReader<A>>),
     Reserved,
 }
@@ -64,7 +65,7 @@ pub(crate) enum Reader<A> {
 impl<A> Clone for Reader<A> {
     fn clone(&self) -> Self {
         match self {
-            Self::Section(read) => Self::Section(*read),
+            Self::Section(read, schema) => Self::Section(*read, *schema),
             Self::Entries(arity, entries) => Self::Entries(*arity, entries.clone()),
             Self::Reserved => Self::Reserved,
         }
@@ -74,8 +75,6 @@ impl<A> Clone for Reader<A> {
 pub(crate) struct SectionReader<A> {
     pub(crate) reader: Reader<A>,
     pub(crate) example: &'static str,
-    /// The schema of a section that is read as a whole.
-    pub(crate) describe: Describe,
     /// The purpose of a section of entries.
     pub(crate) meaning: &'static str,
     pub(crate) order: usize,
@@ -91,7 +90,7 @@ impl<A> Clone for SectionReader<A> {
 impl<A> SectionReader<A> {
     /// A description without details; its order is that of the registration.
     fn new(reader: Reader<A>, example: &'static str) -> Self {
-        Self { reader, example, describe: |_| None, meaning: "", order: 0, origin: "" }
+        Self { reader, example, meaning: "", order: 0, origin: "" }
     }
 }
 
@@ -123,7 +122,7 @@ pub struct Described {
 
 /// A section, or an entry of one, that a scene may name.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub struct Known {
+pub struct RegisteredName {
     /// Its name.
     pub name: &'static str,
     /// One correct use.
@@ -165,8 +164,8 @@ impl<A> Default for Registry<A> {
 impl<A> Registry<A> {
     /// Lets a type read a top-level section.
     pub fn add_section(&mut self, name: &'static str, read: ReadOneSection<A>, of: Described) {
-        let section = SectionReader::new(Reader::Section(read), of.example);
-        self.claim(name, SectionReader { describe: of.schema, origin: module(of.path), ..section });
+        let section = SectionReader::new(Reader::Section(read, of.schema), of.example);
+        self.claim(name, SectionReader { origin: module(of.path), ..section });
     }
 
     /// Makes a top-level section that takes entries by their leading names.
@@ -199,7 +198,7 @@ impl<A> Registry<A> {
     /// Keeps an entry's name for later.
     pub fn reserve_entry(&mut self, section: &'static str, name: &'static str) {
         let order = self.next();
-        let entry = EntryReader { make: None, describe: |_| None, example: "", order, origin: "" };
+        let entry = EntryReader { make: None, describe: |_| false.into(), example: "", order, origin: "" };
         self.claim_entry(section, name, entry);
     }
 
@@ -259,27 +258,27 @@ impl<A> Registry<A> {
 
     /// The registered sections in the order of registration. Reserved sections and lists of entries inside a section
     /// (`look.layers`) are left out.
-    pub fn sections(&self) -> Vec<Known> {
+    pub fn sections(&self) -> Vec<RegisteredName> {
         let known = |(name, section): (&'static str, &SectionReader<A>)| {
             let (origin, takes_entries) = match section.reader {
-                Reader::Section(_) => (section.origin, false),
+                Reader::Section(..) => (section.origin, false),
                 Reader::Entries(..) => (shared_module(&self.entries(name)), true),
                 Reader::Reserved => return None,
             };
-            Some(Known { name, example: section.example, origin, takes_entries })
+            Some(RegisteredName { name, example: section.example, origin, takes_entries })
         };
         let outermost = self.readers().into_iter().filter(|(name, _)| !name.contains('.'));
         outermost.filter_map(known).collect()
     }
 
     /// The entries of a section in the order of registration; reserved ones are left out.
-    pub fn entries(&self, section: &str) -> Vec<Known> {
+    pub fn entries(&self, section: &str) -> Vec<RegisteredName> {
         let Some(SectionReader { reader: Reader::Entries(_, entries), .. }) = self.sections.get(section) else {
             return Vec::new();
         };
         let mut real: Vec<_> = entries.iter().filter(|(_, entry)| entry.make.is_some()).collect();
         real.sort_unstable_by_key(|(_, entry)| entry.order);
-        let known = |(&name, entry): (&&'static str, &EntryReader<A>)| Known {
+        let known = |(&name, entry): (&&'static str, &EntryReader<A>)| RegisteredName {
             name,
             example: entry.example,
             origin: entry.origin,
@@ -307,8 +306,8 @@ fn module(path: &'static str) -> &'static str {
 }
 
 /// The common part of the modules of entries. Only the crate of the first entry counts, because the others are guests.
-fn shared_module(entries: &[Known]) -> &'static str {
-    let home = |entry: &Known| entry.origin.split("::").next().unwrap_or_default();
+fn shared_module(entries: &[RegisteredName]) -> &'static str {
+    let home = |entry: &RegisteredName| entry.origin.split("::").next().unwrap_or_default();
     let Some(first) = entries.first() else { return "" };
     let same_crate = entries.iter().filter(|entry| home(entry) == home(first));
     same_crate.fold(first.origin, |shared, entry| {

@@ -7,7 +7,7 @@ use serde::de::{
 };
 
 use super::diagnostics::Diagnostics;
-use super::outline::{Kind, Outline};
+use super::outline::{NameKind, Outline};
 use super::suggest;
 
 /// A bare word, such as the method `VelocityVerlet`, checked against a list that plugins can extend.
@@ -150,7 +150,7 @@ impl Names {
     }
 
     /// The places of all names that fit, each once, in canonical order. A pattern that fits nothing is reported.
-    pub fn require(&self, kind: Kind, outline: &Outline, path: &str, report: &mut Diagnostics) -> Vec<usize> {
+    pub fn require(&self, kind: NameKind, outline: &Outline, path: &str, report: &mut Diagnostics) -> Vec<usize> {
         if self.patterns.is_empty() {
             let help = format!("write `{path}: [\"*\"]` for all {}", kind.plural());
             report.error(path, format!("must name at least one {}, or `*`", kind.noun())).help(help);
@@ -171,7 +171,7 @@ impl Names {
     }
 
     /// The places of all names that fit, each once, in canonical order.
-    pub fn matching(&self, kind: Kind, outline: &Outline) -> Vec<usize> {
+    pub fn matching(&self, kind: NameKind, outline: &Outline) -> Vec<usize> {
         self.require(kind, outline, "", &mut Diagnostics::new())
     }
 }

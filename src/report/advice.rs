@@ -34,7 +34,7 @@ impl Remedy {
 
 /// The time scales of a run, in seconds.
 #[derive(Clone, Copy, Debug, Default)]
-pub(super) struct Known {
+pub(super) struct RunScales {
     /// The tick of the run.
     pub tick: f64,
     /// The longest stable tick, if there is a limit.
@@ -45,7 +45,7 @@ pub(super) struct Known {
     pub travel: f64,
 }
 
-impl Known {
+impl RunScales {
     /// A quarter of the tick, or less if that is still too long. The limits are a tenth of the critical tick, a twentieth of the
     /// briefest contact, half a radius of way. Rounded down to few digits.
     ///
@@ -85,17 +85,17 @@ mod tests {
     #[test]
     fn a_tick_four_times_as_fine_has_few_digits() {
         for (tick, finer) in [(1e-3, 2.5e-4), (2e-3, 5e-4), (1e-2, 2.5e-3), (4e-4, 1e-4), (3e-4, 5e-5)] {
-            assert_eq!(Known { tick, ..Known::default() }.advised_tick(), finer);
+            assert_eq!(RunScales { tick, ..RunScales::default() }.advised_tick(), finer);
         }
     }
 
     #[test]
     fn each_limit_that_the_tick_breaks_counts() {
-        let known = Known { tick: 1e-3, critical: Some(6e-3), shortest_contact: Some(9e-3), travel: 0.5 };
+        let known = RunScales { tick: 1e-3, critical: Some(6e-3), shortest_contact: Some(9e-3), travel: 0.5 };
         assert_eq!(known.advised_tick(), 2.5e-4);
-        assert_eq!(Known { shortest_contact: Some(4e-3), ..known }.advised_tick(), 2e-4);
-        assert_eq!(Known { travel: 3.0, ..known }.advised_tick(), 1e-4);
-        assert_eq!(Known { critical: Some(9e-4), travel: 1e6, ..known }.advised_tick(), 5e-5);
-        assert_eq!(Known { travel: f64::MAX, ..known }.advised_tick(), 2e-308);
+        assert_eq!(RunScales { shortest_contact: Some(4e-3), ..known }.advised_tick(), 2e-4);
+        assert_eq!(RunScales { travel: 3.0, ..known }.advised_tick(), 1e-4);
+        assert_eq!(RunScales { critical: Some(9e-4), travel: 1e6, ..known }.advised_tick(), 5e-5);
+        assert_eq!(RunScales { travel: f64::MAX, ..known }.advised_tick(), 2e-308);
     }
 }

@@ -6,7 +6,7 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
-use super::advice::{Known, Remedy, rounded_down};
+use super::advice::{Remedy, RunScales, rounded_down};
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
@@ -247,9 +247,9 @@ impl Card {
         rounded_down(self.tick * libm::pow(wanted / error, 1.0 / order).min(0.5))
     }
 
-    fn known(&self) -> Known {
+    fn known(&self) -> RunScales {
         let Self { tick, critical_tick: critical, shortest_contact, largest_travel_share: travel, .. } = *self;
-        Known { tick, critical, shortest_contact, travel }
+        RunScales { tick, critical, shortest_contact, travel }
     }
 }
 

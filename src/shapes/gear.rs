@@ -182,16 +182,16 @@ fn polar(radius: f64, angle: f64) -> DVec2 {
 #[cfg(test)]
 pub(crate) mod tests {
     use super::*;
-    use crate::distance::distance;
+    use crate::hull_distance::distance;
     use crate::moments::AreaMoments;
-    use crate::pose::{Bounds, Pose};
+    use crate::pose::{BoundingBox, Pose};
 
     /// The least distance between two shapes, or `within` if it is larger.
     pub(crate) fn clearance(a: &Shape, pose_a: &Pose, b: &Shape, pose_b: &Pose, within: f64) -> f64 {
         let mut least = within;
         for one in &a.hulls {
-            let bounds = Bounds::of(one, pose_a).grown(within);
-            for other in b.hulls.iter().filter(|other| bounds.touches(&Bounds::of(other, pose_b))) {
+            let bounds = BoundingBox::of(one, pose_a).grown(within);
+            for other in b.hulls.iter().filter(|other| bounds.touches(&BoundingBox::of(other, pose_b))) {
                 least = least.min(distance(one, pose_a, other, pose_b));
             }
         }

@@ -19,7 +19,7 @@ pub(crate) const LEAST: f64 = 1e-75;
 
 /// One side of a core.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Side {
+pub struct HullSide {
     /// Unit normal, outwards.
     pub normal: DVec2,
     /// Length in metres.
@@ -59,7 +59,7 @@ impl Free {
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Hull {
     corners: Vec<DVec2>,
-    sides: Vec<Side>,
+    sides: Vec<HullSide>,
     free: Vec<Free>,
     outline: Vec<DVec2>,
     radius: f64,
@@ -128,7 +128,7 @@ impl Hull {
             _ => (0..count)
                 .map(|index| {
                     let (along, length) = direction(corners[(index + 1) % count] - corners[index]);
-                    Side { normal: -along.perp(), length, inner: false }
+                    HullSide { normal: -along.perp(), length, inner: false }
                 })
                 .collect(),
         };
@@ -143,7 +143,7 @@ impl Hull {
 
     /// The sides of the core: none of a disc, two of a capsule, else one for each corner. Side i begins at corner i.
     #[inline]
-    pub fn sides(&self) -> &[Side] {
+    pub fn sides(&self) -> &[HullSide] {
         &self.sides
     }
 
@@ -234,7 +234,7 @@ impl Hull {
             let at = self.corners.iter().position(|corner| *corner == self.outline[*index]);
             at.is_some_and(|at| !self.sides[at].inner)
         };
-        let across = |side: &Side| {
+        let across = |side: &HullSide| {
             let heights = self.corners.iter().map(|corner| side.normal.dot(*corner));
             let (low, high) = heights
                 .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), height| (low.min(height), high.max(height)));

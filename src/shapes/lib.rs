@@ -7,10 +7,10 @@ mod boundary;
 mod clipping;
 mod compound;
 mod convex_parts;
-mod distance;
 mod error;
 mod gear;
 mod hull;
+mod hull_distance;
 mod moments;
 mod nearest;
 mod orientation;
@@ -24,18 +24,18 @@ mod time_of_impact;
 mod voronoi_region;
 
 pub use compound::mark_inner;
-pub use distance::{Separation, distance, separation};
 pub use error::{Mended, ShapeError};
 pub use gear::Gear;
-pub use hull::{Free, Hull, Side};
+pub use hull::{Free, Hull, HullSide};
+pub use hull_distance::{Separation, distance, separation};
 pub use moments::AreaMoments;
 pub use nearest::{Feature, Nearest, distance_to, may_be_nearer, nearest};
-pub use pose::{Bounds, Pose};
+pub use pose::{BoundingBox, Pose};
 pub use rack::Rack;
 pub use ray::ray;
 pub use rounded_corners::Rounded;
 pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
-pub use time_of_impact::{Motion, time_of_impact};
+pub use time_of_impact::{RigidMotion, time_of_impact};
 pub use voronoi_region::beyond;
 
 /// The settings of the property tests: the same cases in each run, and no files of failures.

@@ -10,7 +10,7 @@ use glam::DVec2;
 use crate::boundary::{Fan, Piece, pieces};
 use crate::clipping::{Ranked, Spans, add_covered, free};
 use crate::hull::Hull;
-use crate::pose::{Bounds, Pose};
+use crate::pose::{BoundingBox, Pose};
 
 /// Area, centre and polar second moment of a shape.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -90,7 +90,7 @@ pub(crate) fn tie(hulls: &[Hull]) -> f64 {
 
 /// The pieces of each hull's boundary with their stretches outside all others.
 pub(crate) fn free_boundary(parts: &[Hull], tie: f64) -> Vec<Vec<(Piece, Spans)>> {
-    let boxes: Vec<Bounds> = parts.iter().map(|hull| Bounds::of(hull, &Pose::default()).grown(tie)).collect();
+    let boxes: Vec<BoundingBox> = parts.iter().map(|hull| BoundingBox::of(hull, &Pose::default()).grown(tie)).collect();
     let of_part = |own: usize| {
         let near: Vec<usize> =
             (0..parts.len()).filter(|other| *other != own && boxes[own].touches(&boxes[*other])).collect();
@@ -119,13 +119,13 @@ pub(crate) fn thick(hull: &Hull, tie: f64) -> Option<Hull> {
     (hull.corners().len() > 2 && thinnest > 4.0 * tie).then(|| Hull::of_corners(hull.corners().to_vec(), 0.0))
 }
 
-fn bounds(hulls: &[Hull]) -> Bounds {
-    let boxes = hulls.iter().map(|hull| Bounds::of(hull, &Pose::default()));
+fn bounds(hulls: &[Hull]) -> BoundingBox {
+    let boxes = hulls.iter().map(|hull| BoundingBox::of(hull, &Pose::default()));
     boxes.reduce(|a, b| a.with(&b)).expect("at least one hull")
 }
 
 pub(crate) fn middle(hulls: &[Hull]) -> DVec2 {
-    let Bounds { low, high } = bounds(hulls);
+    let BoundingBox { low, high } = bounds(hulls);
     low / 2.0 + high / 2.0
 }
 

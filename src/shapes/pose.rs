@@ -56,14 +56,14 @@ impl Pose {
 
 /// A box with sides along x and y, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct BoundingBox {
     /// Least x and least y.
     pub low: DVec2,
     /// Greatest x and greatest y.
     pub high: DVec2,
 }
 
-impl Bounds {
+impl BoundingBox {
     /// The least box that holds a hull with its radius, under a pose.
     pub fn of(hull: &Hull, pose: &Pose) -> Self {
         let empty = Self { low: DVec2::INFINITY, high: DVec2::NEG_INFINITY };
@@ -120,12 +120,13 @@ mod tests {
     #[test]
     fn bounds_hold_the_radius_and_follow_the_pose() {
         let hull = Hull::capsule(DVec2::ZERO, DVec2::new(2.0, 0.0), 0.5).unwrap();
-        let flat = Bounds::of(&hull, &Pose::default());
-        assert_eq!(flat, Bounds { low: DVec2::new(-0.5, -0.5), high: DVec2::new(2.5, 0.5) });
-        let upright = Bounds::of(&hull, &Pose { position: DVec2::X, rotation: DVec2::Y });
-        assert_eq!(upright, Bounds { low: DVec2::new(0.5, -0.5), high: DVec2::new(1.5, 2.5) });
+        let flat = BoundingBox::of(&hull, &Pose::default());
+        assert_eq!(flat, BoundingBox { low: DVec2::new(-0.5, -0.5), high: DVec2::new(2.5, 0.5) });
+        let upright = BoundingBox::of(&hull, &Pose { position: DVec2::X, rotation: DVec2::Y });
+        assert_eq!(upright, BoundingBox { low: DVec2::new(0.5, -0.5), high: DVec2::new(1.5, 2.5) });
         assert!(
-            flat.touches(&upright) && !flat.touches(&Bounds::of(&hull.moved(DVec2::new(3.1, 0.0)), &Pose::default()))
+            flat.touches(&upright)
+                && !flat.touches(&BoundingBox::of(&hull.moved(DVec2::new(3.1, 0.0)), &Pose::default()))
         );
         assert_eq!(flat.with(&upright).high, DVec2::splat(2.5));
     }

@@ -171,7 +171,7 @@ fn check_rounding(rounding: f64, greatest: f64) -> Result<(), ShapeError> {
 mod tests {
     use super::*;
     use crate::moments::AreaMoments;
-    use crate::pose::{Bounds, Pose};
+    use crate::pose::{BoundingBox, Pose};
 
     /// Law: area = that of the sharp shape, minus the loss by rounding. Tolerance: a few dozen terms below `size`^2
     /// round.
@@ -184,8 +184,8 @@ mod tests {
     fn a_rectangle_has_its_outside_measures_whatever_its_rounding() {
         for rounding in [0.0, 0.1, 0.25, 0.5] {
             let shape = rectangle(3.0, 1.0, rounding).unwrap();
-            let bounds = Bounds::of(&shape.hulls[0], &Pose::default());
-            assert_eq!(bounds, Bounds { low: DVec2::new(-1.5, -0.5), high: DVec2::new(1.5, 0.5) });
+            let bounds = BoundingBox::of(&shape.hulls[0], &Pose::default());
+            assert_eq!(bounds, BoundingBox { low: DVec2::new(-1.5, -0.5), high: DVec2::new(1.5, 0.5) });
             assert_area(&shape, 3.0, 3.0);
         }
         assert_eq!(rectangle(1.0, 3.0, 0.5).unwrap().hulls[0].corners().len(), 2);

@@ -14,13 +14,13 @@
 
 use glam::DVec2;
 
-use crate::distance::separation;
 use crate::hull::Hull;
+use crate::hull_distance::separation;
 use crate::pose::Pose;
 
 /// A motion with constant velocity and spin. The hull turns about the origin of its frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Motion {
+pub struct RigidMotion {
     /// The pose of the hull at time zero.
     pub start: Pose,
     /// Velocity of the origin of its frame, in m/s.
@@ -29,7 +29,7 @@ pub struct Motion {
     pub spin: f64,
 }
 
-impl Motion {
+impl RigidMotion {
     /// The pose at a time in seconds.
     pub fn at(&self, time: f64) -> Pose {
         Pose { position: self.start.position + self.velocity * time, rotation: self.rotation(time) }
@@ -46,7 +46,7 @@ impl Motion {
 ///
 /// Surfaces count as touching below 1e-12 of the size of the hulls, or below the rounding of their path. A near miss by
 /// less counts as a contact.
-pub fn time_of_impact(a: &Hull, motion_a: &Motion, b: &Hull, motion_b: &Motion, within: f64) -> Option<f64> {
+pub fn time_of_impact(a: &Hull, motion_a: &RigidMotion, b: &Hull, motion_b: &RigidMotion, within: f64) -> Option<f64> {
     let start = motion_b.start.position - motion_a.start.position;
     let velocity = motion_b.velocity - motion_a.velocity;
     let size = [a, b].iter().map(|hull| hull.reach_of_core(DVec2::ZERO) + hull.radius()).sum::<f64>();
@@ -152,15 +152,15 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-    use crate::distance::distance;
-    use crate::distance::tests::random_hull;
+    use crate::hull_distance::distance;
+    use crate::hull_distance::tests::random_hull;
 
-    fn motion(position: DVec2, angle: f64, velocity: DVec2, spin: f64) -> Motion {
-        Motion { start: Pose::new(position, angle), velocity, spin }
+    fn motion(position: DVec2, angle: f64, velocity: DVec2, spin: f64) -> RigidMotion {
+        RigidMotion { start: Pose::new(position, angle), velocity, spin }
     }
 
     /// Checks the definition: apart at all sampled times before, touching at the time found.
-    fn check(a: &Hull, motion_a: &Motion, b: &Hull, motion_b: &Motion, within: f64) -> Option<f64> {
+    fn check(a: &Hull, motion_a: &RigidMotion, b: &Hull, motion_b: &RigidMotion, within: f64) -> Option<f64> {
         let found = time_of_impact(a, motion_a, b, motion_b, within);
         let gap = |time: f64| distance(a, &motion_a.at(time), b, &motion_b.at(time));
         let end = found.unwrap_or(within);
@@ -184,7 +184,7 @@ mod tests {
         let found = time_of_impact(&disc, &left, &disc, &right, 2.0).unwrap();
         assert!((found - 1.0).abs() < 1e-12, "{found}");
         assert_eq!(time_of_impact(&disc, &left, &disc, &right, 0.9), None);
-        let aside = Motion { start: Pose::new(DVec2::new(5.0, 1.001), 0.0), ..right };
+        let aside = RigidMotion { start: Pose::new(DVec2::new(5.0, 1.001), 0.0), ..right };
         assert_eq!(time_of_impact(&disc, &left, &disc, &aside, 10.0), None);
         assert_eq!(time_of_impact(&disc, &left, &disc, &left, 1.0), Some(0.0));
     }

@@ -12,8 +12,8 @@
 )]
 
 mod allocator;
+mod gather;
 mod level;
-mod pairs;
 mod quads;
 mod scalar;
 #[cfg(test)]
@@ -29,8 +29,8 @@ use serde::{Deserialize, Serialize};
 
 pub use allocator::Lines;
 pub use allocator::give_back;
+pub use gather::{PairBlock, PairBlocks, PairedRecords, Pushes};
 pub use level::{Kernel, Level, run};
-pub use pairs::{PairBlock, PairBlocks, PairedRecords, Pushes};
 pub use quads::{PairedQuads, QUAD, Quad, QuadPairs};
 pub use vectors::Vectors;
 

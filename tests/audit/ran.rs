@@ -1,7 +1,7 @@
 //! Runs as users make them: with an estimate of the error and a verdict.
 
 use jostle::report::card::Card;
-use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
+use jostle::report::estimate::{Effort, EstimateRequest, Repeated, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::{Simulation, SimulationExt};
@@ -38,7 +38,7 @@ fn run_with(text: &str, looks: u64, effort: Effort) -> Result<Ran, String> {
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
     let overrides = Overrides::default();
     let mut simulation = load(&overrides).map_err(|errors| errors.to_string())?;
-    let wanted = Wanted { effort, ..Wanted::default() };
+    let wanted = EstimateRequest { effort, ..EstimateRequest::default() };
     watch(&mut simulation, wanted);
     let mut seen = Vec::new();
     for look in 1..=looks {

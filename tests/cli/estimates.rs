@@ -46,7 +46,7 @@ fn a_beginning_without_a_touch_tells_of_the_beginning_alone() {
     let (error, end) = (&ended["card"]["error"], ended["time"].as_f64().unwrap());
     assert!(error["horizon"].as_f64().unwrap() < 0.9 * end, "{ended}");
     let notes = ended["card"]["notes"].to_string();
-    assert!(notes.contains("in which nothing touches") && notes.contains("--estimate"), "{notes}");
+    assert!(notes.contains("in which no bodies touch") && notes.contains("--estimate"), "{notes}");
     let verdict = ended["card"]["verdict"].as_str().unwrap();
     assert!(
         verdict.starts_with("Trust energy (") && verdict.contains("Runs with finer steps cover only the time before"),

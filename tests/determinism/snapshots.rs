@@ -16,7 +16,7 @@ use jostle::{Simulation, SimulationExt};
 
 use super::pinned_methods::{WAYS, scenes, short};
 
-/// Moments at which a run is set down, as shares of it.
+/// Moments at which runs are saved, as shares of a run. Runs take turns: each is saved at one of them.
 const MOMENTS: [f64; 3] = [0.09, 0.47, 0.83];
 
 /// What is compared of a run at its end: hashes, and the card without times of computing.
@@ -27,8 +27,8 @@ fn end(simulation: &mut Simulation) -> (u64, u64, serde_json::Value) {
     (state_hash(simulation.bodies()), simulation.future_hash().unwrap(), card)
 }
 
-/// Why a run that is set down and taken up does not go on as it would have.
-fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
+/// Why a run that is saved at a moment does not go on as it would have.
+fn difference(source: &Source, overrides: &Overrides, moment: f64) -> Option<String> {
     let Ok(mut whole) = Simulation::load_with(source, overrides, |_| {}) else { return None };
     if whole.run_to_end().is_err() {
         return None;
@@ -37,31 +37,29 @@ fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
     let own = Overrides { plan, ..overrides.clone() };
     let others = Overrides { threads: Some(2), level: Some(Level::Scalar), ..own.clone() };
     let mut saved = Simulation::load_with(source, &own, |_| {}).unwrap();
-    for moment in MOMENTS {
-        let tick = (moment * whole.ticks() as f64) as u64;
-        saved.run_to_tick(tick).unwrap();
-        let bytes = saved.snapshot().unwrap_or_else(|error| panic!("{}: {error}", source.name)).to_bytes();
-        if saved.fork().unwrap().future_hash() != saved.future_hash() {
-            return Some(format!("after {tick} ticks: the future of a fork is another"));
-        }
-        let mut resumed = Simulation::load_with(source, &others, |_| {}).unwrap();
-        // What it has done before is forgotten.
-        resumed.run_to_tick(tick / 2 + 1).unwrap();
-        resumed.restore(&Snapshot::from_bytes(&bytes).unwrap()).unwrap();
-        if resumed.future_hash() != saved.future_hash() {
-            return Some(format!("after {tick} ticks: the future is another right away"));
-        }
-        resumed.run_to_end().unwrap();
-        let found = end(&mut resumed);
-        if found.0 != expected.0 {
-            return Some(format!("after {tick} ticks: another state at the end"));
-        }
-        if found.2 != expected.2 {
-            return Some(format!("after {tick} ticks: another card: {:#} instead of {:#}", found.2, expected.2));
-        }
-        if found.1 != expected.1 {
-            return Some(format!("after {tick} ticks: another future at the end"));
-        }
+    let tick = (moment * whole.ticks() as f64) as u64;
+    saved.run_to_tick(tick).unwrap();
+    let bytes = saved.snapshot().unwrap_or_else(|error| panic!("{}: {error}", source.name)).to_bytes();
+    if saved.fork().unwrap().future_hash() != saved.future_hash() {
+        return Some(format!("after {tick} ticks: the future of a fork is another"));
+    }
+    let mut resumed = Simulation::load_with(source, &others, |_| {}).unwrap();
+    // What it has done before is forgotten.
+    resumed.run_to_tick(tick / 2 + 1).unwrap();
+    resumed.restore(&Snapshot::from_bytes(&bytes).unwrap()).unwrap();
+    if resumed.future_hash() != saved.future_hash() {
+        return Some(format!("after {tick} ticks: the future is another right away"));
+    }
+    resumed.run_to_end().unwrap();
+    let found = end(&mut resumed);
+    if found.0 != expected.0 {
+        return Some(format!("after {tick} ticks: another state at the end"));
+    }
+    if found.2 != expected.2 {
+        return Some(format!("after {tick} ticks: another card: {:#} instead of {:#}", found.2, expected.2));
+    }
+    if found.1 != expected.1 {
+        return Some(format!("after {tick} ticks: another future at the end"));
     }
     None
 }
@@ -69,8 +67,9 @@ fn difference(source: &Source, overrides: &Overrides) -> Option<String> {
 fn demand_none(runs: Vec<(String, PathBuf, Overrides)>) {
     assert!(runs.len() > 20);
     let half = runs.len().div_ceil(2);
-    let of = |(name, path, overrides): &(String, PathBuf, Overrides)| {
-        let found = difference(&Source::read(path).unwrap(), overrides)?;
+    let runs: Vec<_> = runs.into_iter().zip(MOMENTS.into_iter().cycle()).collect();
+    let of = |((name, path, overrides), moment): &((String, PathBuf, Overrides), f64)| {
+        let found = difference(&Source::read(path).unwrap(), overrides, *moment)?;
         Some(format!("{name}: {found}"))
     };
     let found: Vec<String> = std::thread::scope(|scope| {

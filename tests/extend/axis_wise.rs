@@ -15,16 +15,17 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::SimulationExt;
-use jostle::contacts::{AtomPair, CandidatePairs, Law, LawSide, LawTouch, add_law};
-use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
+use jostle::contacts::{AtomPair, CandidatePairs, ContactLaw, LawSide, LawTouch, add_law};
+use jostle::scene::{Entry, Outline, SceneAppExt, Source, WrittenEntry};
 use jostle::simulation::{Overrides, Simulation};
 use jostle::tick::{Energies, Model, Rates, State, SteadySpring};
 use jostle::world::material::Rebound;
 use jostle::world::{Bodies, Materials};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// `contacts: AxisWise()`.
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AxisWise {}
 
@@ -33,7 +34,7 @@ impl Entry for AxisWise {
     const NAME: &'static str = "AxisWise";
     const EXAMPLE: &'static str = "AxisWise()";
 
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         app.init_resource::<Materials>();
         add_law(app, AxisWiseLaw::default());
     }
@@ -44,7 +45,7 @@ struct AxisWiseLaw {
     materials: Materials,
 }
 
-impl Law for AxisWiseLaw {
+impl ContactLaw for AxisWiseLaw {
     fn law(&self) -> &'static str {
         "AxisWise"
     }
@@ -178,7 +179,7 @@ fn deviation(gravity: f64, recorded: &str) -> (f64, f64) {
     };
     let source = Source::new("axis_wise.ron", text);
     let mut simulation = Simulation::load_with(&source, &Overrides::default(), register).unwrap();
-    let names = simulation.header().outline.names(jostle::scene::Kind::BODY).to_vec();
+    let names = simulation.header().outline.names(jostle::scene::NameKind::BODY).to_vec();
     let (mut pose, mut motion) = (0.0_f64, 0.0_f64);
     let mut samples = 0;
     for row in &recorded.rows {

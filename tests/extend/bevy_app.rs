@@ -10,7 +10,7 @@ use bevy_ecs::prelude::*;
 use bevy_time::{Fixed, Time, TimePlugin, TimeUpdateStrategy};
 use bevy_transform::components::Transform;
 use glam::DVec2;
-use jostle::bevy::{Pace, Physics, PhysicsPlugin, Run, SyncTransforms, timestep};
+use jostle::bevy::{Pace, Physics, PhysicsPlugin, RunStatus, SyncTransforms, timestep};
 use jostle::report::Card;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
@@ -88,7 +88,11 @@ fn a_bevy_app_computes_the_same_bits_as_a_headless_run() {
         for _ in 0..=1000 / steps + 1 {
             app.update();
         }
-        assert!(matches!(app.world().resource::<Run>(), Run::Ended), "{:?}", app.world().resource::<Run>());
+        assert!(
+            matches!(app.world().resource::<RunStatus>(), RunStatus::Ended),
+            "{:?}",
+            app.world().resource::<RunStatus>()
+        );
         assert_eq!(app.world().resource::<State>().clock().ticks, 1000);
         assert_eq!(hash(&app), state_hash(headless.bodies()), "{steps} ticks per update");
         // The card and the expectations of the scene are there too.
@@ -133,14 +137,14 @@ fn another_timestep_than_the_clocks_stops_the_run_until_it_is_mended() {
     app.insert_resource(Time::<Fixed>::from_hz(64.0));
     app.update();
     app.update();
-    let told = app.world().resource::<Run>().trouble().unwrap();
+    let told = app.world().resource::<RunStatus>().trouble().unwrap();
     assert!(told.contains("0.015625 s") && told.contains("0.0005 s"), "{told}");
     assert_eq!(app.world().resource::<State>().clock().ticks, 0, "nothing may run meanwhile");
     let right = timestep(app.world());
     app.insert_resource(Time::<Fixed>::from_duration(right));
     app.update();
     app.update();
-    assert!(app.world().resource::<Run>().trouble().is_none());
+    assert!(app.world().resource::<RunStatus>().trouble().is_none());
     assert!(app.world().resource::<State>().clock().ticks > 0);
 }
 
@@ -184,7 +188,11 @@ fn ticks_that_do_not_divide_the_timestep_stay_near_the_game() {
         assert!(physics <= game + 1e-12 && game - physics < 0.0005, "{game} {physics}");
     }
     app.update();
-    assert!(matches!(app.world().resource::<Run>(), Run::Ended), "{:?}", app.world().resource::<Run>());
+    assert!(
+        matches!(app.world().resource::<RunStatus>(), RunStatus::Ended),
+        "{:?}",
+        app.world().resource::<RunStatus>()
+    );
     assert_eq!(hash(&app), state_hash(headless.bodies()));
 }
 
@@ -256,7 +264,7 @@ fn a_wrong_scene_and_a_second_one_are_refused_without_a_panic() {
     let wrong = Source::new("wrong.ron", "Scene(format: 1, clock: (duration: 1), gravty: (0, 1), bodies: [])");
     let mut app = app(PhysicsPlugin::new(wrong.clone(), Pace::Free), 1);
     app.update();
-    let told = app.world().resource::<Run>().trouble().unwrap();
+    let told = app.world().resource::<RunStatus>().trouble().unwrap();
     assert!(told.contains("gravty") && told.contains("gravity"), "{told}");
     let mut app = App::new();
     assert!(PhysicsPlugin::new(wrong, Pace::Free).install(&mut app).is_err());
@@ -267,7 +275,7 @@ fn a_wrong_scene_and_a_second_one_are_refused_without_a_panic() {
     assert!(told.to_string().contains("already"), "{told}");
     // As a plugin, the second one stops the first: neither is what was asked for.
     app.add_plugins((PhysicsPlugin::new(scene(), Pace::Free), PhysicsPlugin::new(scene(), Pace::Free)));
-    assert!(app.world().resource::<Run>().trouble().unwrap().contains("already"));
+    assert!(app.world().resource::<RunStatus>().trouble().unwrap().contains("already"));
 }
 
 #[test]
@@ -280,7 +288,9 @@ fn numbers_that_stop_being_finite_end_the_run_and_are_told() {
     });
     app.update();
     app.update();
-    let Run::Failed(failure) = app.world().resource::<Run>().clone() else { panic!("it should have failed") };
+    let RunStatus::Failed(failure) = app.world().resource::<RunStatus>().clone() else {
+        panic!("it should have failed")
+    };
     assert_eq!(failure.body, "a");
     let ticks = app.world().resource::<State>().clock().ticks;
     app.update();

@@ -10,11 +10,11 @@ use jostle::Simulation;
 use jostle::SimulationExt;
 use jostle::contacts::ContactEvents;
 use jostle::expect::Expectations;
-use jostle::integrate::{ChosenMethod, Methods, Pace};
+use jostle::integrate::{ChosenMethod, Methods, StepPace};
 use jostle::scene::Source;
 use jostle::sensors::{self, Channels};
 use jostle::simulation::{Overrides, Plan, Recorder};
-use jostle::tick::{Evaluate, EvaluateStage, Failure, Modes, Notes, SimTick, Stage, State, TickAppExt, Wrong};
+use jostle::tick::{Evaluate, EvaluateStage, Failure, FailureKind, Modes, Notes, SimTick, Stage, State, TickAppExt};
 use jostle::world::{Bodies, Mass, Materials, Position, Velocity};
 
 /// A ball that lies on a floor beside a brick and a belt, with a sensor and an expectation of each kind that keeps something.
@@ -83,7 +83,7 @@ fn a_resource_that_ticks_need_is_named_when_it_is_gone() {
             for ticks in [0, 5] {
                 let (mut simulation, ran) = without(clock, ticks, take);
                 let failure = ran.expect_err(message);
-                assert!(matches!(failure.wrong, Wrong::Gone(_)), "{failure:?}");
+                assert!(matches!(failure.wrong, FailureKind::Gone(_)), "{failure:?}");
                 let said = failure.to_string();
                 assert!(said.contains(message) && said.contains("Put it back"), "{said}");
                 assert_eq!(simulation.failure(), Some(&failure));
@@ -174,7 +174,7 @@ fn assert_torn(list: &'static str, place: &str, ran: Result<(), Failure>, simula
         return ran.unwrap_or_else(|failure| panic!("{failure}"));
     }
     let failure = ran.expect_err(&format!("{list}, {place}"));
-    assert_eq!(failure.wrong, Wrong::Torn(list), "{place}");
+    assert_eq!(failure.wrong, FailureKind::Torn(list), "{place}");
     assert!(failure.to_string().contains(&format!("`{list}`")), "{failure}");
     let count = simulation.bodies().len();
     assert_eq!((count, simulation.bodies().position.len()), (3, 3), "{list}");
@@ -219,7 +219,7 @@ fn lists_of_bodies_that_do_not_fit_are_named() {
 fn lists_that_were_taken_are_missed() {
     let (mut simulation, ran) =
         without(CLOCKS[0], 5, |world| _ = std::mem::take(world.resource_mut::<State>().bodies_mut()));
-    assert_eq!(ran.unwrap_err().wrong, Wrong::Torn("all of them"));
+    assert_eq!(ran.unwrap_err().wrong, FailureKind::Torn("all of them"));
     assert_eq!(simulation.bodies().len(), 3);
     ask_everything(&mut simulation);
 }
@@ -234,7 +234,7 @@ fn a_component_that_a_body_has_lost_is_named() {
         world.despawn(brick);
     });
     let failure = ran.unwrap_err();
-    assert_eq!((failure.body.as_str(), failure.wrong), ("ball", Wrong::Lost("Mass")));
+    assert_eq!((failure.body.as_str(), failure.wrong), ("ball", FailureKind::Lost("Mass")));
     let said = failure.to_string();
     assert!(said.contains("`ball` has lost its component `Mass` at t = ") && said.contains(": put it back"), "{said}");
     ask_everything(&mut simulation);
@@ -280,7 +280,7 @@ fn nan_and_infinite_values_are_told() {
                     spoil(world, ball, wrong);
                 });
                 let failure = ran.unwrap_err();
-                assert!(matches!(failure.wrong, Wrong::NotFinite(_)), "{failure}");
+                assert!(matches!(failure.wrong, FailureKind::NotFinite(_)), "{failure}");
                 assert_eq!(failure.body, "ball");
                 ask_everything(&mut simulation);
             }
@@ -314,7 +314,7 @@ fn heaps_that_plugins_make_end_the_run() {
             let changed = simulation.bodies().atom_radius[0];
             if changed == 100.0 || simulation.bodies().position[0] == DVec2::ONE {
                 let failure = ran.unwrap_err();
-                assert_eq!(failure.wrong, Wrong::Pairs(1 << 20));
+                assert_eq!(failure.wrong, FailureKind::Pairs(1 << 20));
                 assert_eq!(failure.body, "b_0_0");
                 assert!(simulation.snapshot().is_err());
             }
@@ -349,7 +349,7 @@ fn overrides_that_cannot_be_are_refused() {
     for value in odd {
         load(Overrides { plan: Some(Plan { tick: value, ..plan.clone() }), ..Overrides::default() });
     }
-    load(Overrides { plan: Some(Plan { pace: Pace::Even(0), ..plan.clone() }), ..Overrides::default() });
+    load(Overrides { plan: Some(Plan { pace: StepPace::Even(0), ..plan.clone() }), ..Overrides::default() });
     load(Overrides { plan: Some(Plan { method: "Nonsense".to_owned(), ..plan }), ..Overrides::default() });
     let nothing = Simulation::load_only(&scene(CLOCKS[0]), &Overrides::default(), |_| {});
     assert!(nothing.is_err());

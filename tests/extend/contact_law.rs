@@ -6,17 +6,18 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use jostle::contacts::{CandidatePairs, Law, LawTouch, add_law};
+use jostle::contacts::{CandidatePairs, ContactLaw, LawTouch, add_law};
 use jostle::report::Card;
-use jostle::scene::{Entry, Outline, SceneAppExt, Source, Written};
+use jostle::scene::{Entry, Outline, SceneAppExt, Source, WrittenEntry};
 use jostle::simulation::Overrides;
 use jostle::tick::{Dependence, Energies, Model, State, SteadySpring};
 use jostle::world::Bodies;
 use jostle::{Simulation, SimulationExt};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 /// `contacts: Floor(stiffness: 500)`: a spring between atoms and walls, and nothing between atoms.
-#[derive(Clone, Copy, Deserialize)]
+#[derive(Clone, Copy, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Floor {
     stiffness: f64,
@@ -27,12 +28,12 @@ impl Entry for Floor {
     const NAME: &'static str = "Floor";
     const EXAMPLE: &'static str = "Floor(stiffness: 500)";
 
-    fn install(written: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(written: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_law(app, written[0].value);
     }
 }
 
-impl Law for Floor {
+impl ContactLaw for Floor {
     fn law(&self) -> &'static str {
         "Floor"
     }

@@ -8,7 +8,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use jostle::constraints::{Kind, LostTo, Row, Rows, Share, Side};
+use jostle::constraints::{LostTo, Row, RowKind, RowSide, Rows, Share};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::{Energies, Model, State, SteadySpring, TickAppExt};
@@ -35,12 +35,12 @@ impl Model for Placed {
     fn add_rows(&mut self, bodies: &Bodies, _: f64, rows: &mut Rows) {
         let (place, velocity) = (bodies.position[0], bodies.velocity[0]);
         let direction = place.normalize();
-        let side = Side { body: 0, direction, force: direction, ..Side::default() };
+        let side = RowSide { body: 0, direction, force: direction, ..RowSide::default() };
         self.row = rows.len();
         rows.add(Row {
             sides: [None, Some(side)],
             inertial: velocity.perp_dot(direction).powi(2) / place.length(),
-            kind: Kind::Position,
+            kind: RowKind::Position,
             gap: place.length() - self.length,
             size: self.length,
             ..Row::default()
@@ -78,11 +78,11 @@ impl Model for Rod {
         let (along, moved) = (at(b) - at(a), velocity(b) - velocity(a));
         let direction = along.normalize();
         let across = moved.perp_dot(direction);
-        let side = |body: usize, sign: f64| Side {
+        let side = |body: usize, sign: f64| RowSide {
             body,
             direction: sign * direction,
             force: sign * direction,
-            ..Side::default()
+            ..RowSide::default()
         };
         let row = Row {
             sides: [a.map(|body| side(body, -1.0)), b.map(|body| side(body, 1.0))],

@@ -9,7 +9,7 @@ use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::kept::SnapshotAppExt;
-use jostle::tick::snapshot::{Memory, Unfit, recall};
+use jostle::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use jostle::tick::{Energies, Model, SimTick, Stage, State, SteadySpring, TickAppExt};
 use jostle::world::{Velocity, hash::state_hash};
 use serde::{Deserialize, Serialize};
@@ -50,7 +50,7 @@ impl Model for Tiring {
         if self.tells { Memory::of(&self.evaluations) } else { Memory::Untold }
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.evaluations = recall(bytes)?;
         Ok(())
     }

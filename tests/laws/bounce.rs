@@ -10,7 +10,7 @@
 use jostle::SimulationExt;
 use std::f64::consts::PI;
 
-use jostle::problems::{Setting, Truth, elastic_bounce, inelastic_impact, oblique_collision};
+use jostle::problems::{ProblemSetting, Truth, elastic_bounce, inelastic_impact, oblique_collision};
 
 use super::support::{assert_near, load, momenta, phases, run};
 
@@ -24,7 +24,7 @@ fn an_elastic_impact_lasts_half_a_period() {
     let tick = contact_time / 100.0;
     let share = (inelastic_impact::OMEGA * tick).powi(2) / 4.0;
     for phase in phases(16) {
-        let setting = Setting { method: VERLET, tick, shift: phase * tick, ..Setting::default() };
+        let setting = ProblemSetting { method: VERLET, tick, shift: phase * tick, ..ProblemSetting::default() };
         let simulation = run(&inelastic_impact::scene(&setting, 0.08, 0.0));
         let bodies = simulation.bodies();
         let (gap, speed) = (bodies.position[0].y - inelastic_impact::RADIUS, bodies.velocity[0].y);
@@ -46,7 +46,7 @@ fn gravity_makes_the_contact_longer_and_deeper() {
     let tick = PI / elastic_bounce::OMEGA / 100.0;
     let share = (elastic_bounce::OMEGA * tick).powi(2) / 4.0;
     for phase in phases(16) {
-        let setting = Setting { method: VERLET, tick, shift: phase * tick, ..Setting::default() };
+        let setting = ProblemSetting { method: VERLET, tick, shift: phase * tick, ..ProblemSetting::default() };
         let mut simulation = elastic_bounce::PROBLEM.load(&setting).expect("the scene is correct");
         simulation.run_to_tick((0.8 * elastic_bounce::PERIOD / tick) as u64).expect("numbers stay finite");
         let bodies = simulation.bodies();
@@ -69,7 +69,7 @@ fn states_of_twenty_bounces_are_those_of_the_closed_form() {
     let observable = "gap and velocity at t (gap = bottom of disc above wall)";
     let tick = elastic_bounce::PERIOD / 10_000.0;
     let bound = 4.0 * 231.0 * (elastic_bounce::OMEGA * tick).powi(2) / 4.0;
-    let setting = Setting { method: VERLET, tick, shift: 0.0, ..Setting::default() };
+    let setting = ProblemSetting { method: VERLET, tick, shift: 0.0, ..ProblemSetting::default() };
     let mut simulation = elastic_bounce::PROBLEM.load(&setting).expect("the scene is correct");
     for (time, exact) in truth.times(observable).iter().zip(truth.numbers(observable).chunks(2)) {
         simulation.run_to_tick((time / tick).round() as u64).expect("numbers stay finite");
@@ -87,7 +87,7 @@ fn two_soft_discs_scatter_as_the_integral_says() {
     // The rate of the contact, with series stiffness 7.5 kN/m and reduced mass 2/3 kg.
     let share = 7500.0 / (2.0 / 3.0) * tick * tick / 4.0;
     for phase in phases(16) {
-        let setting = Setting { method: VERLET, tick, shift: phase * tick, ..Setting::default() };
+        let setting = ProblemSetting { method: VERLET, tick, shift: phase * tick, ..ProblemSetting::default() };
         let text = (oblique_collision::PROBLEM.scene)(&setting, 0.04);
         let ((momentum, turning), _) = momenta(load(&text).bodies());
         let simulation = run(&text);

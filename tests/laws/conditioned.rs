@@ -12,7 +12,7 @@
 //! overlap, in `tangential_impact` and `frictional_collision`), which stands for the truth's own error here.
 
 use glam::DVec2;
-use jostle::problems::{self, EventTiming, Problem, Setting};
+use jostle::problems::{self, EventTiming, Problem, ProblemSetting};
 use jostle::world::{Body, Motion, Position, Rotation, Spin, Velocity};
 
 use super::support::phases;
@@ -21,7 +21,7 @@ use super::support::phases;
 const SHARE: f64 = 1.0 / (1_u64 << 30) as f64;
 
 /// The greatest error at the samples, from a start that `change` has changed.
-fn error_from(problem: &Problem, setting: &Setting, mut change: impl FnMut(f64) -> f64) -> f64 {
+fn error_from(problem: &Problem, setting: &ProblemSetting, mut change: impl FnMut(f64) -> f64) -> f64 {
     let mut simulation = problem.load(setting).expect("the scene is correct");
     let world = simulation.world_mut();
     let mut bodies = world.query::<(&Body, &mut Position, &mut Rotation, &mut Velocity, &mut Spin)>();
@@ -49,7 +49,7 @@ fn dop853_errs_by_rounding_on_all_problems() {
     let mut failed = false;
     for problem in problems::ALL {
         let tick = problem.tick;
-        let setting = Setting { method: "Dop853", tick, shift: 0.3 * tick, events: EventTiming::Located };
+        let setting = ProblemSetting { method: "Dop853", tick, shift: 0.3 * tick, events: EventTiming::Located };
         let error = problem.measure(&setting).expect("numbers stay finite");
         let mut chance = phases(u32::MAX);
         let mut condition = 0.0_f64;

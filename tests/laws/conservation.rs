@@ -8,7 +8,7 @@
 //!
 //! Not tested: energy (see `energy`), rough contacts of clumps (see `momentum`).
 
-use jostle::problems::{self, Setting};
+use jostle::problems::{self, ProblemSetting};
 
 use super::support::{is_closed, momenta};
 
@@ -22,7 +22,7 @@ fn closed_problems_keep_momentum_and_angular_momentum() {
         // A method without a stable tick explodes.
         for method in problems::methods().into_iter().filter(|method| method.stability_limit > 0.0) {
             let tick = problem.tick / 4.0;
-            let setting = Setting { method: method.name, tick, shift: 0.0, ..Setting::default() };
+            let setting = ProblemSetting { method: method.name, tick, shift: 0.0, ..ProblemSetting::default() };
             let mut simulation = problem.load(&setting).expect("the problem is a scene");
             let ((momentum, turning), (mut scale, mut turning_scale)) = momenta(simulation.bodies());
             for thousands in 1..=20 {

@@ -7,14 +7,14 @@
 //!
 //! Not tested: forces that change.
 
-use jostle::problems::{Setting, Truth, constant_acceleration};
+use jostle::problems::{ProblemSetting, Truth, constant_acceleration};
 
 use super::support::METHODS;
 
 const TRUTH: &str = include_str!("../../assets/truths/P02_euler_table.json");
 
 fn positions(method: &str, tick: f64, ticks: u64) -> Vec<f64> {
-    let setting = Setting { method, tick, shift: 0.0, ..Setting::default() };
+    let setting = ProblemSetting { method, tick, shift: 0.0, ..ProblemSetting::default() };
     let mut simulation = constant_acceleration::PROBLEM.load(&setting).expect("the scene is correct");
     let mut positions = vec![simulation.bodies().position[0].x];
     for done in 1..=ticks {

@@ -8,7 +8,7 @@
 //! Not tested: hard discs, whose outcome is that of one collision after the other.
 
 use jostle::SimulationExt;
-use jostle::problems::{Setting, cradle};
+use jostle::problems::{ProblemSetting, cradle};
 
 use super::support::{METHODS, assert_near, load, momenta, phases, run_to};
 
@@ -22,7 +22,7 @@ fn a_pulse_disperses_in_every_row() {
             let interaction = cradle::interaction_time(count, incoming);
             let mut worst = 0.0_f64;
             for phase in phases(16) {
-                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
+                let setting = ProblemSetting { method, tick, shift: phase * tick, ..ProblemSetting::default() };
                 let text = cradle::scene(&setting, 1.0, count, incoming);
                 let mut simulation = load(&text);
                 // All touch in the middle of it; shortly before the end some still do.

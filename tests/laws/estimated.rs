@@ -9,7 +9,7 @@
 use jostle::problems;
 use jostle::report::Card;
 use jostle::report::estimate::validation::{Checked, METHODS, check};
-use jostle::report::estimate::{Effort, Repeated, Wanted, estimate, watch};
+use jostle::report::estimate::{Effort, EstimateRequest, Repeated, estimate, watch};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::{Simulation, SimulationExt};
@@ -32,7 +32,7 @@ fn estimates_are_within_a_factor_of_three_of_the_truth() {
 }
 
 /// Runs a scene and estimates its error.
-fn estimated(text: &str, wanted: Wanted) -> Card {
+fn estimated(text: &str, wanted: EstimateRequest) -> Card {
     let source = Source::new("scene.ron", text);
     let overrides = Overrides::default();
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
@@ -56,7 +56,7 @@ fn the_error_of_the_beginning_is_that_until_then() {
             forces: [Spring(a: \"mass\", b: World, stiffness: {}, length: 0)])",
         omega * omega
     );
-    let card = estimated(&text, Wanted::default());
+    let card = estimated(&text, EstimateRequest::default());
     assert!(card.notes.iter().any(|note| note.contains("With --estimate they cover all")), "{:?}", card.notes);
     let error = card.error.unwrap();
     let (found, until) = (error.position.discretisation.unwrap(), error.horizon.unwrap());
@@ -73,7 +73,7 @@ fn the_error_of_the_model_is_that_of_soft_contacts() {
         materials: { \"elastic\": (stiffness: 4000, restitution: 1) },
         walls: [(name: \"wall\", left: (0, 0), right: (0, 1), material: \"elastic\")],
         bodies: [(name: \"ball\", at: (1, 0.5), velocity: (-1, 0), material: \"elastic\", atoms: Disc(radius: 0.1, mass: 1))])";
-    let card = estimated(text, Wanted { effort: Effort::None, model: true, rounding: false });
+    let card = estimated(text, EstimateRequest { effort: Effort::None, model: true, rounding: false });
     let found = card.error.unwrap().position.model.unwrap();
     let exact = std::f64::consts::PI / 4000.0_f64.sqrt();
     assert!((found / exact - 1.0).abs() < 0.02, "{found} {exact}");
@@ -87,7 +87,7 @@ fn the_error_of_the_model_is_that_of_soft_contacts() {
 fn rounding_walks_at_random() {
     let text = "Scene(format: 1, clock: (duration: 10, tick: 1e-3, method: VelocityVerlet),
         bodies: [(name: \"ball\", at: (1, 0), velocity: (1, 0), atoms: Disc(radius: 0.1, mass: 1))])";
-    let card = estimated(text, Wanted { effort: Effort::None, rounding: true, model: false });
+    let card = estimated(text, EstimateRequest { effort: Effort::None, rounding: true, model: false });
     let found = card.error.unwrap().position.rounding.unwrap();
     let (ticks, duration) = (1e4_f64, 10.0);
     let width = f64::EPSILON * (duration * (ticks / 3.0).sqrt()).hypot(duration * ticks.sqrt());
@@ -105,7 +105,7 @@ fn the_observed_order_is_that_of_the_method() {
         )
     };
     for (method, order) in [("VelocityVerlet", 2.0), ("RungeKutta4", 4.0)] {
-        let card = estimated(&spring(method), Wanted { effort: Effort::Full, ..Wanted::default() });
+        let card = estimated(&spring(method), EstimateRequest { effort: Effort::Full, ..EstimateRequest::default() });
         let observed = card.error.unwrap().observed_order.unwrap();
         assert!((observed - order).abs() < 0.5, "{method}: {observed}");
     }
@@ -128,7 +128,7 @@ fn limits_between_ticks_are_in_the_estimate() {
         let blow = (0.2 * height).sqrt();
         let exact = 0.6 * 10.0 * blow * (1.0 - blow) - 5.0 * (1.0 - blow) * (1.0 - blow);
         let error = (simulation.bodies().position[0].y - exact).abs();
-        let stated = estimated(&text, Wanted::default())
+        let stated = estimated(&text, EstimateRequest::default())
             .error
             .and_then(|error| error.position.discretisation)
             .unwrap_or_default();

@@ -10,7 +10,7 @@
 //! Not tested: frames of walls, fields and drag, which move with the scene.
 
 use glam::DVec2;
-use jostle::problems::{self, Setting};
+use jostle::problems::{self, ProblemSetting};
 use jostle::simulation::Simulation;
 use jostle::world::{Position, Rotation, Velocity};
 
@@ -41,7 +41,8 @@ fn closed_problems_are_the_same_in_every_frame() {
     for problem in problems::ALL.iter().filter(|problem| is_closed(problem)) {
         // A method without a stable tick has no state to compare.
         for method in problems::methods().into_iter().filter(|method| method.stability_limit > 0.0) {
-            let setting = Setting { method: method.name, tick: problem.tick, shift: 0.0, ..Setting::default() };
+            let setting =
+                ProblemSetting { method: method.name, tick: problem.tick, shift: 0.0, ..ProblemSetting::default() };
             let load = || problem.load(&setting).expect("the problem is a scene");
             let (mut here, mut moved, mut there) = (load(), load(), load());
             let time = here.ticks() as f64 * problem.tick;

@@ -8,7 +8,7 @@
 //! loss by the bound times the way of that tick, the angle by what passes within a tick.
 
 use jostle::scene::Source;
-use jostle::tick::Wrong;
+use jostle::tick::FailureKind;
 use jostle::{Simulation, SimulationExt};
 
 const METHODS: [&str; 4] = ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853"];
@@ -142,7 +142,7 @@ fn a_motor_that_jams_ends_the_run() {
     );
     for method in METHODS {
         let failure = load(method, &scene).run_to_end().expect_err("a jam");
-        assert_eq!(failure.wrong, Wrong::Contradiction, "{method}: {failure}");
+        assert_eq!(failure.wrong, FailureKind::Contradiction, "{method}: {failure}");
         assert!((failure.time - 0.3).abs() <= 2.0 * TICK, "{method}: {failure}");
     }
     // With a limit the motor stands.

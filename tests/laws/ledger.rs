@@ -12,7 +12,7 @@ use jostle::SimulationExt;
 use std::f64::consts::PI;
 
 use jostle::problems;
-use jostle::tick::Wrong;
+use jostle::tick::FailureKind;
 
 use super::support::{METHODS, assert_near, fitted_order_above, load, run, table};
 
@@ -141,7 +141,7 @@ fn what_explodes_is_stopped_though_drives_work() {
                 bodies: [(name: \"disc\", at: (0.5, 0.0951), material: \"m\", atoms: Disc(radius: 0.1, mass: 1))])"
             ));
             let failure = simulation.run_to_end().expect_err(forces);
-            assert!(matches!(failure.wrong, Wrong::Energy(_)), "{method}, {forces}: {failure}");
+            assert!(matches!(failure.wrong, FailureKind::Energy(_)), "{method}, {forces}: {failure}");
         }
     }
 }

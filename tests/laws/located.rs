@@ -8,7 +8,7 @@
 //! Not tested: several contacts that come to rest together.
 
 use jostle::SimulationExt;
-use jostle::problems::{EventTiming, Setting, Truth, coulomb_oscillator, settling_bounce};
+use jostle::problems::{EventTiming, ProblemSetting, Truth, coulomb_oscillator, settling_bounce};
 
 use super::support::{assert_near, assert_rest, load, run_to};
 
@@ -20,7 +20,7 @@ fn a_bouncing_ball_ends_at_rest_after_the_exact_number_of_flights() {
     let flights = truth.number("soft: number of flights after the first impact") as u32;
     let (_, overlap, end) = settling_bounce::history();
     for method in METHODS {
-        let setting = Setting { method, tick: 1e-4, events: EventTiming::Located, ..Setting::default() };
+        let setting = ProblemSetting { method, tick: 1e-4, events: EventTiming::Located, ..ProblemSetting::default() };
         let text = (settling_bounce::PROBLEM.scene)(&setting, 4.0);
         let mut simulation = super::support::load(&text);
         let (mut found, mut in_air, mut rested) = (0, true, f64::INFINITY);
@@ -49,7 +49,7 @@ fn a_sled_on_a_spring_sticks_after_the_exact_number_of_half_swings() {
     let (half_swings, place) = (truth.number("half swings") as u32, truth.number("rest position"));
     for method in METHODS {
         let tick = 4e-3;
-        let setting = Setting { method, tick, ..Setting::default() };
+        let setting = ProblemSetting { method, tick, ..ProblemSetting::default() };
         let text = (coulomb_oscillator::PROBLEM.scene)(&setting, 4.0);
         let mut simulation = super::support::load(&text);
         let (mut found, mut before) = (0, 0.0);

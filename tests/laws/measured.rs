@@ -3,9 +3,9 @@
 use std::f64::consts::TAU;
 
 use jostle::Simulation;
-use jostle::problems::{Setting, kepler};
-use jostle::report::measure::{Order, Way, measure};
-use jostle::report::work_precision::{Cost, Outcome};
+use jostle::problems::{ProblemSetting, kepler};
+use jostle::report::measure::{MeasureRequest, Way, measure};
+use jostle::report::work_precision::{Cost, SettingOutcome};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 
@@ -44,7 +44,8 @@ fn true_error(source: &Source, method: &str, tick: f64) -> f64 {
 /// truth; a factor of 2 leaves room for how far and how fast the body goes, of which a coarse setting sees fewer moments.
 #[test]
 fn measured_errors_are_those_against_the_exact_answer() {
-    let source = Source::new("kepler.ron", kepler::scene_of(&Setting::default(), DURATION, kepler::ECCENTRICITY));
+    let source =
+        Source::new("kepler.ron", kepler::scene_of(&ProblemSetting::default(), DURATION, kepler::ECCENTRICITY));
     let load = |way: Way| match way {
         Way::Plan(plan) => {
             Simulation::load_with(&source, &Overrides { plan: Some(plan.clone()), ..Overrides::default() }, |_| {})
@@ -52,14 +53,14 @@ fn measured_errors_are_those_against_the_exact_answer() {
         Way::Flags(method, tick) => Simulation::load_with(&source, &overrides(method, tick), |_| {}),
     };
     let methods = ["VelocityVerlet", "RungeKutta4", "Dop853", "ImplicitMidpoint"].map(str::to_owned).to_vec();
-    let order = Order { budget: 600.0, rungs: 10, methods, cost: Cost::Evaluations };
+    let order = MeasureRequest { budget: 600.0, rungs: 10, methods, cost: Cost::Evaluations };
     let measured = measure(&load, &order, &|_| {}).unwrap_or_else(|why| panic!("{why:?}"));
     let reference = measured.reference.as_ref().unwrap_or_else(|why| panic!("{why:?}"));
     assert!(reference.floor < 1e-8 && reference.until == measured.duration, "{reference:?}");
     let (mut compared, mut smallest) = (0, f64::INFINITY);
     for setting in &measured.settings.all {
         // Coarse ticks may give the planet energy out of nowhere beside the sun.
-        let Outcome::Measured(deviation) = setting.outcome else { continue };
+        let SettingOutcome::Measured(deviation) = setting.outcome else { continue };
         if deviation.error < reference.claim() {
             continue;
         }

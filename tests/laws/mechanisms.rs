@@ -10,7 +10,7 @@
 use glam::DVec2;
 use jostle::joints::Joint;
 use jostle::problems::linkage::greatest;
-use jostle::problems::{self, EventTiming, Problem, Setting, Truth};
+use jostle::problems::{self, EventTiming, Problem, ProblemSetting, Truth};
 use jostle::{Simulation, SimulationExt};
 
 use super::support::{self, run_to};
@@ -23,14 +23,14 @@ const REACTION: f64 = 1e-9;
 /// The problems that have joints.
 fn mechanisms() -> impl Iterator<Item = &'static Problem> {
     let jointed = |problem: &&Problem| {
-        let setting = Setting { method: "VelocityVerlet", tick: problem.tick, ..Setting::default() };
+        let setting = ProblemSetting { method: "VelocityVerlet", tick: problem.tick, ..ProblemSetting::default() };
         (problem.scene)(&setting, problem.duration()).contains("joints: [")
     };
     problems::ALL.iter().filter(jointed)
 }
 
 fn load(problem: &Problem, method: &str) -> Simulation {
-    let setting = Setting { method, tick: problem.tick, ..Setting::default() };
+    let setting = ProblemSetting { method, tick: problem.tick, ..ProblemSetting::default() };
     problem.load(&setting).unwrap_or_else(|error| panic!("{error}"))
 }
 
@@ -53,7 +53,8 @@ fn joints_stay_closed_at_every_tick_under_all_methods() {
     for problem in mechanisms() {
         for method in problems::methods() {
             for events in problem.timings(&method) {
-                let setting = Setting { method: method.name, tick: problem.tick, events, ..Setting::default() };
+                let setting =
+                    ProblemSetting { method: method.name, tick: problem.tick, events, ..ProblemSetting::default() };
                 let mut simulation = problem.load(&setting).unwrap_or_else(|error| panic!("{error}"));
                 let size = size(&simulation);
                 // An unstable method may end the run: joints hold until then.
@@ -170,7 +171,7 @@ fn accounts_of_mechanisms_close_under_dop853() {
 #[test]
 fn contacts_alone_are_not_called_joints() {
     let problem = &problems::elastic_bounce::PROBLEM;
-    let setting = Setting { method: "Symplectic4", tick: problem.tick, ..Setting::default() };
+    let setting = ProblemSetting { method: "Symplectic4", tick: problem.tick, ..ProblemSetting::default() };
     let notes = problem.load(&setting).expect("a scene").notes().to_vec();
     assert!(!notes.iter().any(|note| note.contains("joints")), "{notes:?}");
 }
@@ -188,7 +189,7 @@ fn methods_that_project_say_that_they_are_not_symplectic() {
         ("ImplicitMidpoint", EventTiming::Located, true),
         ("RungeKutta4", EventTiming::Located, false),
     ] {
-        let setting = Setting { method, tick: problem.tick, events, ..Setting::default() };
+        let setting = ProblemSetting { method, tick: problem.tick, events, ..ProblemSetting::default() };
         let notes = problem.load(&setting).expect("a scene").notes().to_vec();
         let told = notes.iter().any(|note| note.contains("is not symplectic here"));
         assert_eq!(told, projects, "{method} {events:?}: {notes:?}");
@@ -245,7 +246,12 @@ fn symplectic_methods_keep_the_energy_of_mechanisms() {
 fn a_double_pendulum_is_known_until_its_horizon() {
     let truth = Truth::read(problems::double_pendulum::TRUTH);
     let problem = Problem { samples: &[20.0], ..problems::double_pendulum::PROBLEM };
-    let setting = Setting { method: "Dop853", tick: problem.tick, events: EventTiming::Located, ..Setting::default() };
+    let setting = ProblemSetting {
+        method: "Dop853",
+        tick: problem.tick,
+        events: EventTiming::Located,
+        ..ProblemSetting::default()
+    };
     let mut simulation = problem.load(&setting).unwrap_or_else(|error| panic!("{error}"));
     let exponent = 1.3 * truth.number("largest Lyapunov exponent (finite time)");
     for time in [10.0, 15.0, 20.0] {

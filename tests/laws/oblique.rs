@@ -13,7 +13,7 @@
 //! Not tested: rolling resistance.
 
 use jostle::problems::tangential_impact as grip;
-use jostle::problems::{Setting, Truth};
+use jostle::problems::{ProblemSetting, Truth};
 
 use super::support::{METHODS, assert_near, fitted_order, kinetic, load, phases, run, table};
 
@@ -30,7 +30,7 @@ fn a_grip_throws_the_point_of_contact_back() {
                 // Four kinks of a speed of up to psi1.
                 let bound = grip::leading_error(order, tick) * psi1.max(1.0) + (grip::PROBLEM.rounding)(tick);
                 for phase in phases(32) {
-                    let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
+                    let setting = ProblemSetting { method, tick, shift: phase * tick, ..ProblemSetting::default() };
                     let simulation = run(&grip::scene(&setting, 1.3 * grip::CONTACT_TIME, psi1));
                     let error = grip::error_of(&simulation, psi1);
                     assert!(error <= bound, "{method}, psi1 {psi1}, {ticks} ticks: {error:e} > {bound:e}");
@@ -51,7 +51,8 @@ fn a_contact_that_sticks_at_once_converges_with_order_two() {
                 let tick = grip::CONTACT_TIME / 50.0 / f64::from(1 << halving);
                 let squares = phases(16).enumerate().map(|(number, phase)| {
                     let tick = tick * (1.0 - 0.1 * (number as f64 * std::f64::consts::SQRT_2).fract());
-                    let setting = Setting { method: METHODS[1], tick, shift: phase * tick, ..Setting::default() };
+                    let setting =
+                        ProblemSetting { method: METHODS[1], tick, shift: phase * tick, ..ProblemSetting::default() };
                     grip::error_of(&run(&grip::scene(&setting, 1.3 * grip::CONTACT_TIME, psi1)), psi1).powi(2)
                 });
                 (tick, (squares.sum::<f64>() / 16.0).sqrt())

@@ -14,7 +14,7 @@
 
 use std::f64::consts::TAU;
 
-use jostle::problems::{EventTiming, Setting, Truth, kepler};
+use jostle::problems::{EventTiming, ProblemSetting, Truth, kepler};
 
 use super::support::{assert_near, load, momenta};
 
@@ -23,7 +23,7 @@ fn a_hundred_orbits_keep_energy_and_angular_momentum() {
     let truth = Truth::read(include_str!("../../assets/truths/P07_kepler.json"));
     let steps = 8000_u32;
     let tick = TAU / f64::from(steps);
-    let setting = Setting { method: "VelocityVerlet", tick, shift: 0.0, ..Setting::default() };
+    let setting = ProblemSetting { method: "VelocityVerlet", tick, shift: 0.0, ..ProblemSetting::default() };
     let mut simulation = kepler::PROBLEM.load(&setting).expect("the scene is correct");
     let mass = simulation.bodies().mass[1];
     let energy = truth.number("energy per unit reduced mass");
@@ -57,7 +57,7 @@ fn a_hundred_orbits_keep_energy_and_angular_momentum() {
 #[test]
 fn dop853_knows_the_place_after_a_hundred_orbits() {
     let tick = TAU / 4000.0;
-    let setting = Setting { method: "Dop853", tick, shift: 0.0, events: EventTiming::Located };
+    let setting = ProblemSetting { method: "Dop853", tick, shift: 0.0, events: EventTiming::Located };
     let mut simulation = kepler::PROBLEM.load(&setting).expect("the scene is correct");
     for orbits in [1.3, 10.3, 100.3] {
         simulation.run_to_tick((4000.0_f64 * orbits).round() as u64).expect("numbers stay finite");
@@ -77,7 +77,7 @@ struct LongRun {
 
 /// Averages over a hundred orbits, a hundred of them, with so many ticks an orbit.
 fn long_run(method: &str, eccentricity: f64, steps: u64) -> LongRun {
-    let setting = Setting { method, tick: TAU / steps as f64, shift: 0.0, ..Setting::default() };
+    let setting = ProblemSetting { method, tick: TAU / steps as f64, shift: 0.0, ..ProblemSetting::default() };
     let mut simulation = load(&kepler::scene_of(&setting, TAU, eccentricity));
     let (mut lowest, mut highest, mut means) = (f64::INFINITY, f64::NEG_INFINITY, Vec::new());
     // Every ninth tick, so that all parts of the orbit are seen.

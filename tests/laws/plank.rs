@@ -8,7 +8,7 @@
 
 use jostle::contacts::Other;
 use jostle::problems::plank::{FEET, PROBLEM, TRUTH, WEIGHT};
-use jostle::problems::{Setting, Truth};
+use jostle::problems::{ProblemSetting, Truth};
 
 use super::support::assert_near;
 
@@ -16,7 +16,7 @@ use super::support::assert_near;
 fn posts_bear_what_their_stiffness_tells() {
     let exact = Truth::read(TRUTH).numbers("reactions");
     for method in ["VelocityVerlet", "RungeKutta4", "Dop853"] {
-        let setting = Setting { method, tick: PROBLEM.tick, ..Setting::default() };
+        let setting = ProblemSetting { method, tick: PROBLEM.tick, ..ProblemSetting::default() };
         let mut simulation = PROBLEM.load(&setting).expect("the scene is correct");
         simulation.run_to_tick((0.5 / PROBLEM.tick) as u64).expect("numbers stay finite");
         let mut forces = vec![0.0; FEET.len()];

@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 
 use jostle::problems::hard::column;
-use jostle::problems::{Setting, Truth, settling_bounce};
+use jostle::problems::{ProblemSetting, Truth, settling_bounce};
 use jostle::scene::Source;
 use jostle::simulation::{Overrides, Simulation};
 
@@ -44,7 +44,7 @@ fn a_ball_bounces_to_rest_as_the_closed_form_says() {
         for tick in [2e-4, 1e-4, 5e-5, 2.5e-5] {
             let mut worst = 0.0_f64;
             for phase in phases(8) {
-                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
+                let setting = ProblemSetting { method, tick, shift: phase * tick, ..ProblemSetting::default() };
                 let mut simulation = settling_bounce::PROBLEM.load(&setting).expect("the scene is correct");
                 let found = rebounds(&mut simulation, 2.56);
                 for (number, (found, exact)) in found.iter().zip(&exact).enumerate() {
@@ -77,7 +77,7 @@ fn the_ball_rests_inside_the_band_and_never_moves_again() {
     for method in METHODS {
         for tick in [2e-4, 5e-5] {
             for phase in phases(8) {
-                let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
+                let setting = ProblemSetting { method, tick, shift: phase * tick, ..ProblemSetting::default() };
                 let text = (settling_bounce::PROBLEM.scene)(&setting, 10.0);
                 let mut simulation = load(&text);
                 let mut rested = f64::INFINITY;

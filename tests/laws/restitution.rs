@@ -18,7 +18,7 @@
 //! Not tested: impacts with friction (see `oblique`), both materials different (see `impacts`).
 
 use jostle::SimulationExt;
-use jostle::problems::{Setting, Truth, inelastic_impact as impact};
+use jostle::problems::{ProblemSetting, Truth, inelastic_impact as impact};
 
 use super::support::{METHODS, assert_near, fitted_order, load, phases, run, table};
 
@@ -36,7 +36,7 @@ fn worst_error(method: &str, inelasticity: f64, ticks_per_contact: f64) -> (f64,
     let tick = contact_time / ticks_per_contact;
     let duration = impact::GAP / impact::SPEED + contact_time + 3.0 * tick;
     let error = phases(PHASES).map(|phase| {
-        let setting = Setting { method, tick, shift: phase * tick, ..Setting::default() };
+        let setting = ProblemSetting { method, tick, shift: phase * tick, ..ProblemSetting::default() };
         let simulation = run(&impact::scene(&setting, duration, inelasticity));
         let bodies = simulation.bodies();
         assert!(bodies.position[0].y > impact::RADIUS, "the disc should have left the wall");
@@ -147,7 +147,7 @@ fn contact_time_overlap_and_loss_are_those_of_the_closed_form() {
 #[test]
 fn a_given_restitution_comes_out() {
     let tick = impact::contact_time(0.05) / 40.0;
-    let setting = Setting { method: "VelocityVerlet", tick, shift: 0.4 * tick, ..Setting::default() };
+    let setting = ProblemSetting { method: "VelocityVerlet", tick, shift: 0.4 * tick, ..ProblemSetting::default() };
     let given = impact::restitution(0.05);
     let text = impact::scene(&setting, 0.07, 0.05).replace("inelasticity: 0.05", &format!("restitution: {given:?}"));
     assert!(text.contains("restitution"), "{text}");

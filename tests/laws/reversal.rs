@@ -6,7 +6,7 @@
 //! most `2 n^2 eps` of the motion for `n` ticks, which is 1e-9 here; found are 1e-12. The bound is chosen between that and the error of
 //! the method, which is 1e-4 and more.
 
-use jostle::problems::{EventTiming, Setting, elastic_bounce, kepler, spring_mass};
+use jostle::problems::{EventTiming, ProblemSetting, elastic_bounce, kepler, spring_mass};
 use jostle::report::reversal::Reversal;
 
 use super::support::load;
@@ -14,7 +14,7 @@ use super::support::load;
 #[test]
 fn symmetric_methods_come_back_to_rounding() {
     for method in ["SemiImplicitEuler", "VelocityVerlet", "ImplicitMidpoint", "Symplectic4"] {
-        let setting = Setting { method, tick: 1e-3, ..Setting::default() };
+        let setting = ProblemSetting { method, tick: 1e-3, ..ProblemSetting::default() };
         let back = Reversal::of(&mut load(&(spring_mass::PROBLEM.scene)(&setting, 2.0))).expect("numbers stay finite");
         // Kick and drift in the other order is not the same map: semi-implicit Euler comes back to its own error.
         let bound = if method == "SemiImplicitEuler" { 2.0 * 1e-3 * 10.0 * 0.1 } else { 1e-9 };
@@ -26,7 +26,7 @@ fn symmetric_methods_come_back_to_rounding() {
 fn other_methods_come_back_to_their_error() {
     for (method, order) in [("RungeKutta4", 4), ("Dop853", 8), ("ExplicitEuler", 1)] {
         let returned = |tick: f64| {
-            let setting = Setting { method, tick, ..Setting::default() };
+            let setting = ProblemSetting { method, tick, ..ProblemSetting::default() };
             let back =
                 Reversal::of(&mut load(&(spring_mass::PROBLEM.scene)(&setting, 0.2))).expect("numbers stay finite");
             back.position
@@ -41,11 +41,12 @@ fn other_methods_come_back_to_their_error() {
 
 #[test]
 fn an_orbit_and_a_bounce_come_back() {
-    let setting = Setting { method: "VelocityVerlet", tick: kepler::PROBLEM.tick, ..Setting::default() };
+    let setting = ProblemSetting { method: "VelocityVerlet", tick: kepler::PROBLEM.tick, ..ProblemSetting::default() };
     let back = Reversal::of(&mut load(&(kepler::PROBLEM.scene)(&setting, 1.3 * std::f64::consts::TAU)));
     let back = back.expect("numbers stay finite");
     assert!(back.position < 1e-9, "{back:?}");
-    let setting = Setting { method: "Dop853", tick: 1e-3, events: EventTiming::Located, ..Setting::default() };
+    let setting =
+        ProblemSetting { method: "Dop853", tick: 1e-3, events: EventTiming::Located, ..ProblemSetting::default() };
     let back = Reversal::of(&mut load(&(elastic_bounce::PROBLEM.scene)(&setting, 1.0))).expect("numbers stay finite");
     assert!(back.position < 1e-9 && back.because.is_none(), "{back:?}");
 }

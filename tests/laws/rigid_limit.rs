@@ -10,7 +10,7 @@
 //! Not tested: the errors of methods at a given stiffness (see `problems` and `convergence`).
 
 use jostle::Simulation;
-use jostle::problems::{Setting, Truth, corner_impact, falling_ladder, leaving_cylinder, rocking_block};
+use jostle::problems::{ProblemSetting, Truth, corner_impact, falling_ladder, leaving_cylinder, rocking_block};
 use jostle::scene::Source;
 
 use super::support::fitted_order;
@@ -19,9 +19,9 @@ use super::support::fitted_order;
 const STEPS: f64 = 0.25;
 
 /// Runs a scene of a stiffness under `Dop853` for a time in s.
-fn run(scene: impl Fn(&Setting, f64, f64) -> String, duration: f64, stiffness: f64) -> Simulation {
+fn run(scene: impl Fn(&ProblemSetting, f64, f64) -> String, duration: f64, stiffness: f64) -> Simulation {
     let ticks = (duration * stiffness.sqrt() / STEPS).ceil();
-    let setting = Setting { method: "Dop853", tick: duration / ticks, ..Setting::default() };
+    let setting = ProblemSetting { method: "Dop853", tick: duration / ticks, ..ProblemSetting::default() };
     let text = scene(&setting, duration, stiffness);
     let mut simulation = Simulation::load(&Source::new("rigid.ron", text)).expect("the scene is correct");
     simulation.run_to_tick(ticks as u64).expect("numbers stay finite");
@@ -114,7 +114,7 @@ fn a_block_rocks_as_a_rigid_one() {
 fn a_bullet_comes_back_from_a_thin_wall() {
     let truth = Truth::read(include_str!("../../assets/truths/H06_bullet_toi.json"));
     let (end, speed) = (0.004, 900.0);
-    let scene = |setting: &Setting, duration: f64, stiffness: f64| {
+    let scene = |setting: &ProblemSetting, duration: f64, stiffness: f64| {
         format!(
             "Scene({}, materials: {{ \"steel\": (stiffness: {stiffness:?}, restitution: 1) }},
             walls: [(name: \"wall\", from: (2.002, -1), to: (2.002, 1), thickness: 0.004, material: \"steel\")],
@@ -135,7 +135,7 @@ fn a_bullet_comes_back_from_a_thin_wall() {
         },
     );
     for tick in [end, end / 3.0, truth.number("largest dt that cannot tunnel without CCD")] {
-        let setting = Setting { method: "Dop853", tick, ..Setting::default() };
+        let setting = ProblemSetting { method: "Dop853", tick, ..ProblemSetting::default() };
         let mut simulation = Simulation::load(&Source::new("bullet.ron", scene(&setting, end, 1e11))).expect("correct");
         simulation.run_to_end().expect("the bullet does not pass");
         assert!(simulation.bodies().velocity[0].x < 0.0, "ticks of {tick} s let the bullet through");
@@ -147,7 +147,7 @@ fn a_bullet_comes_back_from_a_thin_wall() {
 fn a_spinning_capsule_strikes_a_peg_when_a_rigid_one_does() {
     let truth = Truth::read(include_str!("../../assets/truths/H06_bullet_toi.json"));
     let (end, spin) = (0.2, 40.0);
-    let scene = |setting: &Setting, duration: f64, stiffness: f64| {
+    let scene = |setting: &ProblemSetting, duration: f64, stiffness: f64| {
         format!(
             "Scene({}, contacts: Penalty(tangential: None),
             materials: {{ \"steel\": (stiffness: {stiffness:?}, restitution: 1), \"hard\": (stiffness: 1e300, restitution: 1) }},
@@ -181,7 +181,7 @@ fn a_disc_rolls_off_the_cylinder_as_a_rigid_one() {
     let [cylinder, radius] = leaving_cylinder::RADII;
     let far = cylinder + radius;
     let overlap = (gravity - 0.25 / far) / stiffness;
-    let scene = |setting: &Setting, duration: f64, stiffness: f64| {
+    let scene = |setting: &ProblemSetting, duration: f64, stiffness: f64| {
         let rough = "restitution: 1, friction: 1e5";
         format!(
             "Scene({}, gravity: (0, -{gravity:?}), contacts: Penalty(tangential: Exact),

@@ -7,7 +7,7 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::Simulation;
-use jostle::tick::{Failure, Wrong};
+use jostle::tick::{Failure, FailureKind};
 use jostle::world::Position;
 
 use super::support::{assert_near, load, run_to};
@@ -147,7 +147,7 @@ fn an_atom_that_passes_through_a_wall_ends_the_run() {
     for clock in METHODS {
         let mut simulation = scene(clock, ROUGH, wall, &ball(0.5, -500.0));
         let failure = try_to(&mut simulation, 0.1).expect_err("the bullet passes");
-        assert!(matches!(failure.wrong, Wrong::Crossed(_)), "{clock}: {failure}");
+        assert!(matches!(failure.wrong, FailureKind::Crossed(_)), "{clock}: {failure}");
         let text = failure.to_string();
         assert!(text.contains("`bullet`") && text.contains("`sheet`") && text.contains("stiffness"), "{text}");
         let mut simulation = scene(clock, ROUGH, wall, &ball(1.5, -500.0));

@@ -7,7 +7,7 @@ use jostle::Simulation;
 use jostle::contacts::ContactForces;
 use jostle::integrate::Description;
 pub use jostle::problems::hard::kinetic;
-use jostle::problems::{EventTiming, Problem, Setting, hard};
+use jostle::problems::{EventTiming, Problem, ProblemSetting, hard};
 use jostle::scene::Source;
 use jostle::world::Bodies;
 use jostle::world::hash::state_hash;
@@ -38,14 +38,14 @@ const PHASES: u32 = 16;
 /// Errors of a method at a tick: one, or where events fall on other places of ticks one for each of 16 phases, each with its
 /// own tick, up to a tenth shorter; infinite where a run explodes. With it the tick.
 pub fn errors_at(problem: &Problem, method: &Description, events: EventTiming, tick: f64) -> Vec<(f64, f64)> {
-    let measure = |setting: Setting| (setting.tick, problem.measure(&setting).unwrap_or(f64::INFINITY));
-    let setting = Setting { method: method.name, tick, shift: 0.0, events };
+    let measure = |setting: ProblemSetting| (setting.tick, problem.measure(&setting).unwrap_or(f64::INFINITY));
+    let setting = ProblemSetting { method: method.name, tick, shift: 0.0, events };
     if !problem.class.depends_on_phase() {
         return vec![measure(setting)];
     }
     let at_phase = |(number, phase): (usize, f64)| {
         let tick = tick * (1.0 - 0.1 * (number as f64 * std::f64::consts::SQRT_2).fract());
-        measure(Setting { tick, shift: phase * tick, ..setting })
+        measure(ProblemSetting { tick, shift: phase * tick, ..setting })
     };
     phases(PHASES).enumerate().map(at_phase).collect()
 }
@@ -136,7 +136,8 @@ pub fn assert_rest(what: &str, simulation: &mut Simulation, time: f64, still: f6
 
 /// Whether nothing from outside acts on the bodies of a problem.
 pub fn is_closed(problem: &Problem) -> bool {
-    let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };
+    let setting =
+        ProblemSetting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..ProblemSetting::default() };
     let text = (problem.scene)(&setting, problem.duration());
     let outside =
         ["gravity:", "walls:", "fixed:", "kinematic:", "World", "Drag(", "Drive(", "Thrust(", "Torque(", "Wind("];

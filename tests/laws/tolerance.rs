@@ -8,7 +8,7 @@
 //! ticks, of four methods and of numbers of ticks that double up to four thousand. Readings of the run are left out,
 //! and so are trials, which come on top; the card gives their number.
 
-use jostle::problems::{ALL, EventTiming, Problem, Setting, rotating_ring, settling_bounce};
+use jostle::problems::{ALL, EventTiming, Problem, ProblemSetting, rotating_ring, settling_bounce};
 use jostle::scene::Source;
 use jostle::simulation::{Overrides, Plan};
 use jostle::{Simulation, SimulationExt};
@@ -49,7 +49,7 @@ fn run(problem: &Problem, simulation: &mut Simulation) -> (f64, u64) {
 }
 
 fn scene(problem: &Problem, method: &str, tick: f64, events: EventTiming) -> String {
-    (problem.scene)(&Setting { method, tick, shift: 0.0, events }, problem.duration())
+    (problem.scene)(&ProblemSetting { method, tick, shift: 0.0, events }, problem.duration())
 }
 
 fn without_tick(problem: &Problem) -> String {

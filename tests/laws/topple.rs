@@ -6,7 +6,7 @@
 //! Not tested: an incline that is raised during the run, pushes, elastic boxes at rest.
 
 use jostle::problems::tilted_box::{GRAVITY, Incline, TRUTH, scene};
-use jostle::problems::{Setting, Truth};
+use jostle::problems::{ProblemSetting, Truth};
 
 use super::support::{assert_near, load, run_to};
 
@@ -14,7 +14,7 @@ const SHARE: f64 = 1e-4;
 
 /// The way of the box in a second in m, and its turning in rad.
 fn after(slope: f64, friction: f64) -> (f64, f64) {
-    let setting = Setting { method: "Dop853", tick: 2e-4, ..Setting::default() };
+    let setting = ProblemSetting { method: "Dop853", tick: 2e-4, ..ProblemSetting::default() };
     let incline = Incline { slope, friction, stiffness: 1e8, restitution: 0.2 };
     let mut simulation = load(&scene(&setting, 1.0, &incline));
     let angle = simulation.bodies().angle[0];

@@ -23,7 +23,7 @@
 
 use jostle::integrate::Description;
 use jostle::problems::{
-    self, EventTiming, Problem, Setting, coulomb_oscillator, elastic_bounce, inelastic_impact, spring_mass,
+    self, EventTiming, Problem, ProblemSetting, coulomb_oscillator, elastic_bounce, inelastic_impact, spring_mass,
 };
 use jostle::scene::Source;
 use jostle::{Simulation, SimulationExt};
@@ -35,7 +35,7 @@ const PHASES: u32 = 24;
 fn rms(problem: &Problem, method: &Description, tick: f64) -> f64 {
     let squares = phases(PHASES).enumerate().map(|(number, phase)| {
         let tick = tick * (1.0 - 0.1 * (number as f64 * std::f64::consts::SQRT_2).fract());
-        let setting = Setting { method: method.name, tick, shift: phase * tick, events: EventTiming::PerTick };
+        let setting = ProblemSetting { method: method.name, tick, shift: phase * tick, events: EventTiming::PerTick };
         let text = (problem.scene)(&setting, problem.duration()).replace("events: Located", "events: PerTick");
         let mut simulation =
             Simulation::load(&Source::new("unlocated.ron", text)).unwrap_or_else(|errors| panic!("{errors}"));

@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
 use jostle::Simulation;
-use jostle::scene::{Diagnostics, Kind, Outline, SceneAppExt, SceneErrors, Section, Source};
+use jostle::scene::{Diagnostics, NameKind, Outline, SceneAppExt, SceneErrors, Section, Source};
 use jostle::simulation::Overrides;
 
 use super::authoring::end;
@@ -126,7 +126,7 @@ fn files_in_a_circle_and_missing_files_are_told() {
 }
 
 /// A plugin's section: it knows nothing of templates, and reads plain numbers of serde.
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Paint {
     of: String,
@@ -134,7 +134,7 @@ struct Paint {
     thickness: f64,
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct PaintSection(Vec<Paint>);
 
 #[derive(Resource, Default)]
@@ -146,7 +146,7 @@ impl Section for PaintSection {
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         for (index, paint) in self.0.iter().enumerate() {
-            outline.require(Kind::BODY, &paint.of, &format!("[{index}].of"), report);
+            outline.require(NameKind::BODY, &paint.of, &format!("[{index}].of"), report);
             report.positive(&format!("[{index}].thickness"), paint.thickness);
         }
     }

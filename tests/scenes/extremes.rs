@@ -5,7 +5,7 @@
 
 use jostle::scene::Source;
 use jostle::simulation::Simulation;
-use jostle::tick::{Failure, Wrong};
+use jostle::tick::{Failure, FailureKind};
 
 /// Runs some ticks, one at a time or all at once, and sees that the state is finite as long as nothing is said.
 fn run(sections: &str, ticks: u64, at_once: bool) -> Result<(), Failure> {
@@ -49,7 +49,7 @@ fn a_velocity_that_leaves_the_numbers_in_the_last_kick() {
         forces: [Drag(linear: 1e300)]"#;
     let first =
         (1..=40).find_map(|ticks| run(sections, ticks, true).err()).expect("it becomes infinite within two ticks");
-    assert!(first.body == "brick" && matches!(first.wrong, Wrong::NotFinite(_)), "{first}");
+    assert!(first.body == "brick" && matches!(first.wrong, FailureKind::NotFinite(_)), "{first}");
     let step_by_step = run(sections, 40, false).expect_err("likewise");
     assert_eq!(first, step_by_step);
 }

@@ -91,7 +91,7 @@ fn many(criterion: &mut Criterion) {
         criterion,
         "hourglass",
         include_str!("../../scenes/hourglass.ron"),
-        &Stretch { from: 4_000, count: 400, samples: 10 },
+        &Stretch { from: 6_250, count: 400, samples: 10 },
     );
     ticks(criterion, "fill_settling", SETTLING, &Stretch { from: 2_500, count: 400, samples: 10 });
 }

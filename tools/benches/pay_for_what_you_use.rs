@@ -8,13 +8,13 @@ use jostle::forces::drag::DragForce;
 use jostle::forces::gravity;
 use jostle::scene::units::{AccelerationPair, Damping};
 use jostle::scene::values::Names;
-use jostle::scene::{Arity, Entry, Outline, SceneAppExt, Section, Source, Written};
+use jostle::scene::{Arity, Entry, Outline, SceneAppExt, Section, Source, WrittenEntry};
 use jostle::simulation::Overrides;
 use jostle::tick::TickAppExt;
 use jostle::world::hash::state_hash;
 use jostle::{Simulation, expect, integrate, plugins, sensors, world};
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct FreeFall(AccelerationPair);
 
 impl Section for FreeFall {
@@ -26,7 +26,7 @@ impl Section for FreeFall {
     }
 }
 
-#[derive(serde::Deserialize)]
+#[derive(serde::Deserialize, schemars::JsonSchema)]
 struct Drag {
     linear: Damping,
     of: Names,
@@ -37,8 +37,8 @@ impl Entry for Drag {
     const NAME: &'static str = "Drag";
     const EXAMPLE: &'static str = "Drag(linear: 0.1, of: \"ball\")";
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             let of = Targets::named(Some(&value.of), outline);
             app.add_model(DragForce { linear: value.linear.si(), quadratic: 0.0, of });
         }

@@ -8,14 +8,14 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 use jostle::record::{FilmAppExt, Mark, MarkShape};
-use jostle::scene::units::{Position as At, Stiffness};
+use jostle::scene::units::{LengthPair as At, Stiffness};
 use jostle::scene::values::Names;
-use jostle::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use jostle::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use jostle::sensors::{self, Channel, Channels, SensorAppExt};
 use jostle::tick::kept::SnapshotAppExt;
 use jostle::tick::{SimTick, Stage, TickAppExt};
 use jostle::world::{Body, Force, Name, Position};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Registers what scenes may name: `Simulation::load_with(&source, &Overrides::default(), home_spring::plugin)`.
@@ -59,20 +59,16 @@ impl Entry for HomeSpring {
     const NAME: &'static str = "HomeSpring";
     const EXAMPLE: &'static str = "HomeSpring(of: \"ball\", home: (0, 0), stiffness: 2)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         report.positive("stiffness", self.stiffness);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mut springs = Springs::default();
-        for Written { value, .. } in entries {
-            for index in value.of.matching(Kind::BODY, outline) {
-                let Some(body) = body_named(app.world_mut(), &outline.names(Kind::BODY)[index]) else { continue };
+        for WrittenEntry { value, .. } in entries {
+            for index in value.of.matching(NameKind::BODY, outline) {
+                let Some(body) = body_named(app.world_mut(), &outline.names(NameKind::BODY)[index]) else { continue };
                 springs.0.push(Spring { body, home: value.home.si(), stiffness: value.stiffness.si(), greatest: 0.0 });
             }
         }
@@ -131,17 +127,13 @@ impl Entry for HomeSpringStretch {
     const NAME: &'static str = "HomeSpringStretch";
     const EXAMPLE: &'static str = "HomeSpringStretch(of: \"ball\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for index in entries.iter().flat_map(|entry| entry.value.of.matching(Kind::BODY, outline)) {
-            let name = format!("{}.{STRETCH}", outline.names(Kind::BODY)[index]);
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for index in entries.iter().flat_map(|entry| entry.value.of.matching(NameKind::BODY, outline)) {
+            let name = format!("{}.{STRETCH}", outline.names(NameKind::BODY)[index]);
             if let Some(channel) = sensors::find(app.world_mut(), &name) {
                 Channels::add(app.world_mut(), channel);
             }

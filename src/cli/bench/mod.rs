@@ -1,7 +1,7 @@
 //! `jostle bench`: the cost of ticks of scenes, beside a plain loop that does the same work.
 
 mod memory;
-mod told;
+mod print;
 
 use clap::Args;
 
@@ -11,7 +11,7 @@ use super::load::{self, Request};
 use super::progress_bar::Progress;
 use super::say::{print_line, say};
 use crate::cli::author;
-use crate::report::bench::{self, Measured, Order, Stopped};
+use crate::report::bench::{self, BenchRequest, BenchResult, Stopped};
 use crate::scene::{SceneErrors, Source};
 use crate::simulation::{Overrides, Simulation};
 
@@ -98,16 +98,16 @@ impl Bench {
         for (number, scene) in scenes.iter().enumerate() {
             match self.measure(scene, order, &progress) {
                 Ok((measured, bytes)) if self.json => {
-                    exit = exit.worse(print_line(&told::json(scene, &measured, bytes).to_string()));
+                    exit = exit.worse(print_line(&print::json(scene, &measured, bytes).to_string()));
                 }
-                Ok((measured, bytes)) => rows.push(told::Row::of(scene, measured, bytes)),
+                Ok((measured, bytes)) => rows.push(print::Row::of(scene, measured, bytes)),
                 Err(stopped) => exit = exit.worse(progress.aside(|| self.tell(scene, &stopped))),
             }
             progress.at(order.steps() * (number as u64 + 1));
         }
         drop(progress);
         if !rows.is_empty() {
-            exit = exit.worse(print_line(told::table(&rows).trim_end()));
+            exit = exit.worse(print_line(print::table(&rows).trim_end()));
         }
         if self.scenes.is_empty() && !self.json {
             say("note: larger scenes stand in scenes/benchmarks of the source repository");
@@ -115,8 +115,8 @@ impl Bench {
         exit
     }
 
-    fn order(&self) -> Order {
-        Order {
+    fn order(&self) -> BenchRequest {
+        BenchRequest {
             ticks: self.ticks,
             rounds: self.rounds.unwrap_or(if self.quick { 3 } else { 7 }),
             quick: self.quick,
@@ -125,7 +125,12 @@ impl Bench {
     }
 
     /// The measurement of a scene, and its bytes.
-    fn measure(&self, scene: &str, order: Order, progress: &Progress) -> Result<(Measured, Option<u64>), Stopped> {
+    fn measure(
+        &self,
+        scene: &str,
+        order: BenchRequest,
+        progress: &Progress,
+    ) -> Result<(BenchResult, Option<u64>), Stopped> {
         let source = self.source(scene)?;
         let load = |plan| {
             let overrides = Overrides { plan, threads: Some(self.threads), ..self.overrides.overrides() };

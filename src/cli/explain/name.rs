@@ -12,7 +12,7 @@ use crate::integrate::Methods;
 use crate::raster::Theme;
 use crate::scene::schema::Language;
 use crate::scene::suggest::plural;
-use crate::scene::{Known, SceneRegistry, nearest_name};
+use crate::scene::{RegisteredName, SceneRegistry, nearest_name};
 use crate::sensors::QUANTITIES;
 use crate::tick::TickAppExt;
 use crate::tick::energy::CHANNELS;
@@ -136,7 +136,7 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
     (found, names.chain(flags.into_iter().map(|flag| flag.name)).collect())
 }
 
-fn of_section(known: Known, registry: &SceneRegistry) -> String {
+fn of_section(known: RegisteredName, registry: &SceneRegistry) -> String {
     let entries: Vec<&str> = registry.entries(known.name).into_iter().map(|entry| entry.name).collect();
     let kind = if known.takes_entries {
         format!("is a section of the scene that takes entries: {}", entries.join(", "))
@@ -146,7 +146,7 @@ fn of_section(known: Known, registry: &SceneRegistry) -> String {
     format!("`{}` {kind}. It comes from {}.\nFor example: {}", known.name, handed_on(known.origin), known.example)
 }
 
-fn of_entry(section: &str, known: Known) -> String {
+fn of_entry(section: &str, known: RegisteredName) -> String {
     format!(
         "`{}` is an entry of `{section}`. It comes from {}.\nFor example: {}",
         known.name,

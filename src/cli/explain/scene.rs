@@ -14,11 +14,11 @@ use crate::cli::flags::OverrideFlags;
 use crate::cli::load::Request;
 use crate::cli::say::{count, number};
 use crate::report::Card;
-use crate::scene::{Known, SceneRegistry};
+use crate::scene::{RegisteredName, SceneRegistry};
 use crate::simulation::{Overrides, Simulation};
 use crate::tick::Failure;
 use crate::tick::State;
-use crate::tick::stopwatch::{self, Part};
+use crate::tick::stopwatch::{self, TickPart};
 
 /// The duration of the run without looks at the clock, which gives their cost.
 const PLAIN: Duration = Duration::from_millis(500);
@@ -313,7 +313,7 @@ fn named(simulation: &Simulation) -> Vec<Named> {
 }
 
 /// The sections and entries that the scene names, with the modules that read them.
-fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
+fn known_in(simulation: &Simulation) -> Vec<(String, RegisteredName)> {
     let outline = &simulation.header().outline;
     let registry = simulation.resource::<SceneRegistry>();
     let mut known = Vec::new();
@@ -333,25 +333,25 @@ fn known_in(simulation: &Simulation) -> Vec<(String, Known)> {
     known
 }
 
-fn stages(world: &World, known: &[(String, Known)]) -> Vec<Stage> {
+fn stages(world: &World, known: &[(String, RegisteredName)]) -> Vec<Stage> {
     let Some(watch) = world.resource::<State>().stopwatch() else { return Vec::new() };
-    let spent = |part: Part| watch.spent(part).as_secs_f64();
+    let spent = |part: TickPart| watch.spent(part).as_secs_f64();
     // Between two ticks only the loop runs, so that time belongs to no stage.
-    let in_ticks = |part: &Part| *part != Part::Between;
-    let all: f64 = Part::ALL.into_iter().filter(in_ticks).map(spent).sum();
+    let in_ticks = |part: &TickPart| *part != TickPart::Between;
+    let all: f64 = TickPart::ALL.into_iter().filter(in_ticks).map(spent).sum();
     let systems = stopwatch::systems(world);
-    let stage = |(part, names): (Part, Vec<String>)| Stage {
+    let stage = |(part, names): (TickPart, Vec<String>)| Stage {
         name: part.name(),
         share: if all > 0.0 { spent(part) / all } else { 0.0 },
         systems: names.iter().map(|name| System::named(name, known)).collect(),
     };
-    let wanted = |(part, names): &(Part, Vec<String>)| in_ticks(part) && (spent(*part) > 0.0 || !names.is_empty());
+    let wanted = |(part, names): &(TickPart, Vec<String>)| in_ticks(part) && (spent(*part) > 0.0 || !names.is_empty());
     systems.into_iter().filter(wanted).map(stage).collect()
 }
 
 impl System {
     /// A system by its full name, such as `jostle::forces::gravity::apply_gravity`.
-    fn named(full: &str, known: &[(String, Known)]) -> Self {
+    fn named(full: &str, known: &[(String, RegisteredName)]) -> Self {
         let full = handed_on(full);
         let (path, types) = full.split_once('<').unwrap_or((&full, ""));
         let (module, name) = path.rsplit_once("::").unwrap_or(("", path));
@@ -362,7 +362,7 @@ impl System {
             .filter(|part| !part.is_empty())
             .collect();
         let types = if types.is_empty() { String::new() } else { format!("<{}>", types.join(", ")) };
-        let within = |(_, known): &&(String, Known)| {
+        let within = |(_, known): &&(String, RegisteredName)| {
             module.strip_prefix(&*handed_on(known.origin)).is_some_and(|rest| rest.is_empty() || rest.starts_with("::"))
         };
         let nearest = known.iter().filter(within).max_by_key(|(_, known)| known.origin.len());

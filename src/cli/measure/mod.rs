@@ -1,6 +1,6 @@
 //! `jostle measure`: the error and cost of each method and tick on a scene, and advice.
 
-mod told;
+mod print;
 
 use std::cell::Cell;
 use std::path::{Path, PathBuf};
@@ -17,7 +17,7 @@ use super::say::{number, print_line, say};
 use crate::cli::author;
 use crate::output::{OutputError, write_picture, write_whole};
 use crate::raster::{Theme, draw_diagram};
-use crate::report::measure::{self, Measured, NoReference, Order, Way};
+use crate::report::measure::{self, MeasureRequest, Measured, NoReference, Way};
 use crate::report::work_precision::Cost;
 use crate::simulation::{Overrides, Simulation};
 
@@ -123,7 +123,7 @@ impl Measure {
             }
             Simulation::load_with(&source, &overrides, author::plugin)
         };
-        let order = Order {
+        let order = MeasureRequest {
             budget: self.budget,
             rungs: self.rungs.map_or(usize::MAX, usize::from),
             methods: self.methods.clone(),
@@ -151,14 +151,14 @@ impl Measure {
         let mut exit = if measured.reference.is_err() || measured.all_fail() { Exit::RunWrong } else { Exit::Good };
         let run = self.run_with();
         let text = if self.json {
-            told::json(&self.scene, measured, &run).to_string()
+            print::json(&self.scene, measured, &run).to_string()
         } else {
-            told::text(measured, &run).trim_end().to_owned()
+            print::text(measured, &run).trim_end().to_owned()
         };
         exit = exit.worse(print_line(&text));
         for path in &self.output {
             let written = if ends_with(path, "csv") {
-                write_whole(path, told::csv(measured))
+                write_whole(path, print::csv(measured))
             } else {
                 self.draw(request, measured, path)
             };

@@ -3,8 +3,8 @@
 use std::path::Path;
 
 use super::attempt::Attempt;
-use crate::output::{OutputError, Target, sheet};
-use crate::raster::{Bounds, Camera, Theme, View};
+use crate::output::{OutputError, OutputTarget, sheet};
+use crate::raster::{Camera, Theme, View, WorldRectangle};
 use crate::record::sections::{CameraChoice, FitCamera};
 
 /// The most pictures on one sheet that can be distinguished.
@@ -33,7 +33,7 @@ pub(super) fn write(
     let view = View { camera, theme, frame_step: 0.01, panel: None };
     let columns = (pictures.len() as f64).sqrt().ceil() as u32;
     let rows = (pictures.len() as u32).div_ceil(columns);
-    let target = Target::new(path)?;
+    let target = OutputTarget::new(path)?;
     let mut film = sheet::open(&target, view, (columns, rows))?;
     for (frame, _) in &pictures {
         film.push(frame.clone())?;
@@ -44,7 +44,7 @@ pub(super) fn write(
 type Picture = (crate::record::frame::Frame, Option<CameraChoice>);
 
 fn fitting(pictures: &[&Picture], margin: f64, size: (u32, u32)) -> Camera {
-    let all = pictures.iter().filter_map(|(frame, _)| Bounds::of_frame(frame)).reduce(Bounds::union);
-    let nothing = Bounds { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
+    let all = pictures.iter().filter_map(|(frame, _)| WorldRectangle::of_frame(frame)).reduce(WorldRectangle::union);
+    let nothing = WorldRectangle { low: glam::DVec2::NEG_ONE, high: glam::DVec2::ONE };
     Camera::fit(all.unwrap_or(nothing), margin, size)
 }

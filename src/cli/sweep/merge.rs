@@ -3,14 +3,14 @@
 use std::collections::BTreeMap;
 use std::path::{Path, PathBuf};
 
-use super::table::Table;
+use super::result_table::Table;
 use crate::cli::Exit;
 use crate::cli::say::{count, say};
 use crate::output::write_whole;
-use crate::scene::embed::{Wanted, told};
+use crate::scene::embed::{FileRequest, told};
 
 /// A table of a shard.
-const SHARD: Wanted = Wanted { most: 1 << 30, noun: "the table of a shard", smaller: "use more shards" };
+const SHARD: FileRequest = FileRequest { most: 1 << 30, noun: "the table of a shard", smaller: "use more shards" };
 
 /// The most absent shards that are listed.
 const MOST_NAMED: usize = 20;

@@ -5,7 +5,7 @@ mod attempt;
 mod contact_sheet;
 mod merge;
 mod record;
-mod table;
+mod result_table;
 mod vary;
 
 use std::path::{Path, PathBuf};
@@ -15,12 +15,12 @@ use clap::Args;
 
 use self::attempt::{Attempt, attempt, refused};
 use self::record::Record;
-use self::table::{Row, Table};
+use self::result_table::{Row, Table};
 use self::vary::{Grid, Variation};
 use super::Exit;
 use super::colors;
 use super::destination::Place;
-use super::film::{Order, Shot};
+use super::film::{FilmRequest, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
 use super::load::{self, Request};
@@ -29,7 +29,7 @@ use super::say::{count, print_line, say};
 use super::side_by_side::{all_cores, in_order};
 use super::trial::Verdict;
 use crate::cli::author;
-use crate::output::{Target, may_be_written, write_whole};
+use crate::output::{OutputTarget, may_be_written, write_whole};
 use crate::scene::{SceneRegistry, Source, suggest};
 use crate::simulation::Simulation;
 use jostle_language::digest::of_bytes;
@@ -313,12 +313,12 @@ impl Sweep {
         let name = format!("{} ({label})", scene.name);
         let request = Request { name: &name, json: false };
         let (Ok(mut simulation), Ok(target)) =
-            (Simulation::load_with(scene, &overrides, author::plugin), Target::new(path))
+            (Simulation::load_with(scene, &overrides, author::plugin), OutputTarget::new(path))
         else {
             // The run itself has reported the reason.
             return Exit::Good;
         };
-        let order = Order {
+        let order = FilmRequest {
             request,
             source: scene,
             overrides: &overrides,

@@ -5,7 +5,7 @@ use std::fs::{File, OpenOptions, TryLockError};
 use std::io::{Read, Seek, SeekFrom, Write};
 use std::path::{Path, PathBuf};
 
-use super::table::Row;
+use super::result_table::Row;
 use jostle_language::digest::of_bytes;
 
 /// The beginning of a record, which the sweep's identity follows.

@@ -4,7 +4,7 @@
 use crate::world::Bodies;
 
 /// The bodies of a link between two sides: a contact or a joint. Side A may be absent: the world, or a wall.
-pub trait Link {
+pub trait IslandLink {
     /// The body of side A.
     fn other_body(&self) -> Option<usize>;
 
@@ -14,7 +14,7 @@ pub trait Link {
 
 /// Does something with the bodies of some links, one after the other.
 #[inline]
-fn each_end<L: Link>(links: &[L], mut act: impl FnMut(usize)) {
+fn each_end<L: IslandLink>(links: &[L], mut act: impl FnMut(usize)) {
     for link in links {
         act(link.own_body());
         if let Some(other) = link.other_body() {
@@ -33,7 +33,7 @@ pub struct Islands {
 impl Islands {
     /// Sorts both lists of links so that links of one island are consecutive, in canonical order. An island is a set of
     /// links of either list that share bodies which move by forces.
-    pub fn sort<L: Link, M: Link>(&mut self, links: &mut [L], others: &mut [M], bodies: &Bodies) {
+    pub fn sort<L: IslandLink, M: IslandLink>(&mut self, links: &mut [L], others: &mut [M], bodies: &Bodies) {
         self.root.resize(bodies.len(), 0);
         let begin = |root: &mut [u32], body: usize| root[body] = body as u32;
         each_end(links, |body| begin(&mut self.root, body));
@@ -48,14 +48,14 @@ impl Islands {
     }
 
     /// The first body of the island of a link that was sorted.
-    pub fn of<L: Link>(&self, link: &L, bodies: &Bodies) -> u32 {
+    pub fn of<L: IslandLink>(&self, link: &L, bodies: &Bodies) -> u32 {
         let own = link.own_body();
         let body = if bodies.dynamic[own] { Some(own) } else { link.other_body() };
         self.root[body.unwrap_or(own)]
     }
 
     /// Joins the islands of both bodies of each link.
-    fn join<L: Link>(&mut self, links: &[L], bodies: &Bodies) {
+    fn join<L: IslandLink>(&mut self, links: &[L], bodies: &Bodies) {
         let root = &mut self.root;
         for link in links {
             let own = link.own_body();
@@ -121,7 +121,7 @@ pub struct Members {
 
 impl Members {
     /// Becomes those of the island of these links of two kinds, among so many bodies.
-    pub fn collect<L: Link, M: Link>(&mut self, links: &[L], others: &[M], bodies: usize) {
+    pub fn collect<L: IslandLink, M: IslandLink>(&mut self, links: &[L], others: &[M], bodies: usize) {
         for &body in &self.list {
             self.index[body] = 0;
         }

@@ -27,5 +27,5 @@ mod solver;
 pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;
-pub use row::{Kind, LostTo, Row, Side};
+pub use row::{LostTo, Row, RowKind, RowSide};
 pub use rows::{Booking, Cancelled, Rows};

@@ -17,7 +17,7 @@ pub enum LostTo {
 
 /// The part of the relative motion that a row holds.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-pub enum Kind {
+pub enum RowKind {
     /// Its position: a joint. Positions, velocities and accelerations are held, and corrected after each step.
     Position,
     /// Its velocity: a motor. Velocities are brought back, places are not.
@@ -29,7 +29,7 @@ pub enum Kind {
 
 /// One side of a row.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Side {
+pub struct RowSide {
     /// The index of its body.
     pub body: usize,
     /// Direction of the row: the factor from the body's velocity to that of the row.
@@ -46,7 +46,7 @@ pub struct Side {
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Row {
     /// Side A, absent for walls and the world, and side B.
-    pub sides: [Option<Side>; 2],
+    pub sides: [Option<RowSide>; 2],
     /// The relative acceleration without any force, in m/s2 or rad/s2.
     pub inertial: f64,
     /// Velocity in m/s of the surface of side A, if that is a moving wall.
@@ -56,7 +56,7 @@ pub struct Row {
     /// The account of its losses.
     pub lost_to: LostTo,
     /// The quantity that it holds.
-    pub kind: Kind,
+    pub kind: RowKind,
     /// The deviation of its position from the required one, in m or rad. Zero for rows that hold no position.
     pub gap: f64,
     /// The magnitude of the numbers from which the gap was found, in m or rad. The rounding of the gap is a share of
@@ -85,7 +85,7 @@ impl Default for Row {
             surface: DVec2::ZERO,
             share: Share { natural: 0.0, measure: 1.0 },
             lost_to: LostTo::Friction,
-            kind: Kind::Acceleration,
+            kind: RowKind::Acceleration,
             gap: 0.0,
             size: 0.0,
             rate: 0.0,
@@ -110,7 +110,7 @@ impl Row {
 
     /// The greatest speed that counts in its velocity, in m/s or rad/s: rounding is a share of it.
     pub fn speeds(&self, bodies: &Bodies) -> f64 {
-        let of = |side: &Side| {
+        let of = |side: &RowSide| {
             let turning = (side.lever * bodies.spin[side.body]).abs();
             (side.direction.length() * bodies.velocity[side.body].length()).max(turning)
         };
@@ -119,7 +119,7 @@ impl Row {
 
     /// The relative velocity along the row, in m/s or rad/s.
     pub fn velocity(&self, bodies: &Bodies) -> f64 {
-        let of = |side: &Side| side.direction.dot(bodies.velocity[side.body]) + side.lever * bodies.spin[side.body];
+        let of = |side: &RowSide| side.direction.dot(bodies.velocity[side.body]) + side.lever * bodies.spin[side.body];
         let surface = -self.sides[1].map_or(0.0, |side| side.direction.dot(self.surface));
         self.sides.iter().flatten().map(of).fold(surface, |sum, term| sum + term)
     }
@@ -127,11 +127,11 @@ impl Row {
     /// Power of one unit of its force on both bodies, in watts. The parts are that along the row, the rest, and that of
     /// driven bodies and surfaces.
     pub fn powers(&self, bodies: &Bodies) -> [f64; 3] {
-        let given = |side: &Side| {
+        let given = |side: &RowSide| {
             let whole = side.force.dot(bodies.velocity[side.body]) + side.torque * bodies.spin[side.body];
             if bodies.dynamic[side.body] { 0.0 } else { -whole }
         };
-        let all = |side: &Side| side.force.dot(bodies.velocity[side.body]) + side.torque * bodies.spin[side.body];
+        let all = |side: &RowSide| side.force.dot(bodies.velocity[side.body]) + side.torque * bodies.spin[side.body];
         let surface = self.sides[1].map_or(0.0, |side| side.force.dot(self.surface));
         let sides = || self.sides.iter().flatten();
         let along = self.velocity(bodies);
@@ -141,7 +141,7 @@ impl Row {
 
     /// The relative acceleration along the row under the present forces, in m/s2 or rad/s2.
     pub fn acceleration(&self, bodies: &Bodies) -> f64 {
-        let of = |side: &Side| {
+        let of = |side: &RowSide| {
             let (force, torque) = (bodies.force[side.body], bodies.torque[side.body]);
             side.direction.dot(force) * bodies.inverse_mass(side.body)
                 + side.lever * torque * bodies.inverse_inertia(side.body)

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::redundant::{self, Share};
-use super::row::{Kind, LostTo, Row};
+use super::row::{LostTo, Row, RowKind};
 use super::solver::Solver;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -90,7 +90,7 @@ impl Rows {
 
     /// Whether all hold places.
     pub fn all_in_place(&self) -> bool {
-        self.rows.iter().all(|row| row.kind == Kind::Position)
+        self.rows.iter().all(|row| row.kind == RowKind::Position)
     }
 
     /// Rows have no acceleration of their own: forces are those that keep velocities on them in a kick.
@@ -101,7 +101,7 @@ impl Rows {
     /// Removes the rows for which `keep` is false.
     pub fn retain(&mut self, keep: impl FnMut(&Row) -> bool) {
         self.rows.retain(keep);
-        self.joints = self.rows.iter().filter(|row| row.kind != Kind::Acceleration).count();
+        self.joints = self.rows.iter().filter(|row| row.kind != RowKind::Acceleration).count();
         self.given.clear();
         self.prepared = false;
     }
@@ -132,7 +132,7 @@ impl Rows {
 
     /// Adds a row.
     pub fn add(&mut self, row: Row) {
-        self.joints += usize::from(row.kind != Kind::Acceleration);
+        self.joints += usize::from(row.kind != RowKind::Acceleration);
         self.prepared = false;
         self.rows.push(row);
     }
@@ -278,10 +278,10 @@ impl Rows {
         self.loads.clear();
         self.indices.resize(bodies.len(), 0);
         for (row, &force) in self.rows.iter().zip(&self.answer) {
-            let share = if row.kind == Kind::Acceleration { 1.0 } else { OF_JOINTS };
+            let share = if row.kind == RowKind::Acceleration { 1.0 } else { OF_JOINTS };
             for side in row.sides.iter().flatten() {
                 let extent = bodies.extent(side.body);
-                let turns = side.force == DVec2::ZERO && row.kind != Kind::Acceleration && extent > 0.0;
+                let turns = side.force == DVec2::ZERO && row.kind != RowKind::Acceleration && extent > 0.0;
                 let of_one = if turns { side.torque.abs() / extent } else { side.force.length() };
                 let load = share * force.abs() * of_one;
                 let index = self.indices[side.body];

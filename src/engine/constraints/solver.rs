@@ -8,9 +8,9 @@
 
 use super::block_cholesky::BlockCholesky;
 use super::borders::Borders;
-use super::islands::{Islands, Link, find};
+use super::islands::{IslandLink, Islands, find};
 use super::redundant::{self, Share};
-use super::row::{Kind, Row};
+use super::row::{Row, RowKind};
 use crate::world::Bodies;
 use glam::DVec2;
 
@@ -42,7 +42,7 @@ struct Linked {
     other: Option<usize>,
 }
 
-impl Link for Linked {
+impl IslandLink for Linked {
     fn other_body(&self) -> Option<usize> {
         self.other
     }
@@ -299,7 +299,8 @@ impl Solver {
     }
 
     fn gathered(&self, row: &Row) -> f64 {
-        let of = |side: &super::Side| side.direction.dot(self.velocity[side.body]) + side.lever * self.spin[side.body];
+        let of =
+            |side: &super::RowSide| side.direction.dot(self.velocity[side.body]) + side.lever * self.spin[side.body];
         row.sides.iter().flatten().map(of).fold(0.0, |sum, term| sum + term)
     }
 }
@@ -316,14 +317,15 @@ fn has_loop(mut joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
 }
 
 fn ends(row: &Row, bodies: &Bodies) -> Ends {
-    let body =
-        |side: Option<super::Side>| side.filter(|side| bodies.dynamic[side.body]).map_or(NONE, |side| side.body as u32);
-    Ends { bodies: row.sides.map(body), held: row.kind == Kind::Acceleration }
+    let body = |side: Option<super::RowSide>| {
+        side.filter(|side| bodies.dynamic[side.body]).map_or(NONE, |side| side.body as u32)
+    };
+    Ends { bodies: row.sides.map(body), held: row.kind == RowKind::Acceleration }
 }
 
 #[cfg(test)]
 mod tests {
-    use super::super::row::Side;
+    use super::super::row::RowSide;
     use super::*;
     use bevy_ecs::entity::Entity;
 
@@ -343,14 +345,14 @@ mod tests {
             let direction = direction * way;
             let sag = 0.1 * body as f64 - 2.0;
             let lever = DVec2::new(arm, sag * arm).perp_dot(direction);
-            Some(Side { body, direction, lever, force: direction, torque: lever })
+            Some(RowSide { body, direction, lever, force: direction, torque: lever })
         };
         let mut rows = Vec::new();
         for link in 0..=LINKS {
             for direction in [DVec2::X, DVec2::Y] {
                 let a = link.checked_sub(1).and_then(|body| side(body, -1.0, direction, 0.5));
                 let b = (link < LINKS).then(|| side(link, 1.0, direction, -0.5)).flatten();
-                rows.push(Row { sides: [a, b], kind: Kind::Position, ..Row::default() });
+                rows.push(Row { sides: [a, b], kind: RowKind::Position, ..Row::default() });
             }
         }
         for link in [3, 17, 18, 30] {

@@ -10,7 +10,7 @@ use glam::DVec2;
 use jostle_shapes::{Feature, Hull};
 
 use super::{AtomPair, Probe, Surface, SurfacePair};
-use crate::constraints::islands::Link;
+use crate::constraints::islands::IslandLink;
 use crate::world::{Bodies, NearestOnHull, NearestPoint};
 use serde::{Deserialize, Serialize};
 
@@ -30,7 +30,7 @@ pub(crate) struct Shares {
 
 /// One side of a contact: an atom, or the nearest point of a hull's core to the other side.
 #[derive(Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct End {
+pub(crate) struct ContactEnd {
     pub body: usize,
     /// Centre of the atom, or the place on the core, from the centre of mass of its body, in metres.
     pub arm: DVec2,
@@ -38,7 +38,7 @@ pub(crate) struct End {
     pub radius: f64,
 }
 
-impl End {
+impl ContactEnd {
     /// The place of a hull that is nearest to the other side.
     #[inline(always)]
     fn on_hull(bodies: &Bodies, hull: usize, shape: &Hull, found: &NearestOnHull) -> Self {
@@ -84,8 +84,8 @@ impl End {
 /// Side A of a pair.
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) enum SideA {
-    Atom(End),
-    Hull(End),
+    Atom(ContactEnd),
+    Hull(ContactEnd),
     /// The index of a wall.
     Wall(u32),
 }
@@ -99,16 +99,16 @@ pub(crate) enum Listed {
 
 /// The two sides of a candidate pair.
 #[derive(Clone, Copy, Serialize, Deserialize)]
-pub(crate) struct Pair {
+pub(crate) struct ContactSides {
     /// The index of the pair among those of its kind.
     pub index: u32,
     /// Unit normal from A to B.
     pub normal: DVec2,
     pub a: SideA,
-    pub b: End,
+    pub b: ContactEnd,
 }
 
-impl Link for Pair {
+impl IslandLink for ContactSides {
     fn other_body(&self) -> Option<usize> {
         self.other_end().map(|end| end.body)
     }
@@ -118,14 +118,14 @@ impl Link for Pair {
     }
 }
 
-impl Pair {
+impl ContactSides {
     /// The list that holds it.
     pub fn listed(&self) -> Listed {
         if matches!(self.a, SideA::Atom(_)) { Listed::Atoms } else { Listed::Surfaces }
     }
 
     /// Side A unless it is a wall.
-    pub fn other_end(&self) -> Option<&End> {
+    pub fn other_end(&self) -> Option<&ContactEnd> {
         match &self.a {
             SideA::Atom(end) | SideA::Hull(end) => Some(end),
             SideA::Wall(_) => None,
@@ -159,7 +159,7 @@ impl Pair {
 /// Arms of both sides to the contact point. It lies between the centres, nearer to the undeformed surface of the harder
 /// side.
 #[inline]
-pub(crate) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares) -> (DVec2, DVec2) {
+pub(crate) fn arms((a, b): (&ContactEnd, &ContactEnd), normal: DVec2, overlap: f64, shares: Shares) -> (DVec2, DVec2) {
     (a.arm + normal * (a.radius - shares.a * overlap), b.arm - normal * (b.radius - shares.b * overlap))
 }
 
@@ -167,7 +167,7 @@ pub(crate) fn arms((a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Sh
 #[derive(Clone, Copy, Serialize, Deserialize)]
 pub(crate) struct PairGeometry {
     /// The sides.
-    pub pair: Pair,
+    pub pair: ContactSides,
     /// Overlap in metres; negative: the gap.
     pub overlap: f64,
     /// Distance of the centres in metres; infinite for the flat side of a wall or hull; see [`NearestPoint::distance`].
@@ -185,14 +185,14 @@ impl PairGeometry {
         let (AtomPair { a, b }, reach) = (pair, pair.reach(bodies));
         let distance = (bodies.atom_place(b as usize) - bodies.atom_place(a as usize)).length();
         let normal = pair.normal(bodies);
-        let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+        let (a, b) = (ContactEnd::of(bodies, a), ContactEnd::of(bodies, b));
         Self {
             overlap: reach - distance,
             distance,
             flat: None,
             velocity: b.velocity(bodies) - a.velocity(bodies),
             spins: (bodies.spin[a.body], bodies.spin[b.body]),
-            pair: Pair { index: index as u32, normal, a: SideA::Atom(a), b },
+            pair: ContactSides { index: index as u32, normal, a: SideA::Atom(a), b },
         }
     }
 
@@ -217,7 +217,7 @@ impl PairGeometry {
     }
 
     fn wall(bodies: &Bodies, index: usize, wall: usize, atom: u32) -> Self {
-        let (end, place) = End::at_wall(bodies, wall, atom);
+        let (end, place) = ContactEnd::at_wall(bodies, wall, atom);
         let NearestPoint { height, normal, distance } = bodies.nearest_on_wall(wall, atom as usize, place);
         let wall = bodies.whole_wall(wall);
         let belt = bodies.belts.get(wall).copied().unwrap_or(DVec2::ZERO);
@@ -227,7 +227,7 @@ impl PairGeometry {
             flat: None,
             velocity: end.velocity(bodies) - belt,
             spins: (0.0, bodies.spin[end.body]),
-            pair: Pair { index: index as u32, normal, a: SideA::Wall(wall as u32), b: end },
+            pair: ContactSides { index: index as u32, normal, a: SideA::Wall(wall as u32), b: end },
         }
     }
 
@@ -235,9 +235,9 @@ impl PairGeometry {
     fn hull(bodies: &Bodies, index: usize, (hull, kept): (usize, Option<Feature>), atom: u32) -> (Self, f64) {
         let (shape, place, radius) = bodies.meeting(hull, atom as usize);
         let (found, distance) = bodies.touched_on((hull, kept), shape, place);
-        let a = End::on_hull(bodies, hull, shape, &found);
+        let a = ContactEnd::on_hull(bodies, hull, shape, &found);
         let body = bodies.atom_body(atom as usize);
-        let b = End { body, arm: place - bodies.position[body], radius };
+        let b = ContactEnd { body, arm: place - bodies.position[body], radius };
         let spins = (bodies.spin[a.body], bodies.spin[b.body]);
         let geometry = Self {
             overlap: a.radius + b.radius - found.distance,
@@ -245,7 +245,7 @@ impl PairGeometry {
             flat: found.flat.then_some((spins.0, found.distance)),
             velocity: b.velocity(bodies) - a.velocity(bodies),
             spins,
-            pair: Pair { index: index as u32, normal: found.normal, a: SideA::Hull(a), b },
+            pair: ContactSides { index: index as u32, normal: found.normal, a: SideA::Hull(a), b },
         };
         (geometry, distance - shape.radius() - radius)
     }
@@ -260,7 +260,7 @@ impl PairGeometry {
         let (center, radius) = bodies.walls[wall].end(right);
         let shape = &bodies.hulls[hull].hull;
         let (found, distance) = bodies.touched_on((hull, kept), shape, center);
-        let b = End::on_hull(bodies, hull, shape, &found);
+        let b = ContactEnd::on_hull(bodies, hull, shape, &found);
         let spin = bodies.spin[b.body];
         let geometry = Self {
             overlap: radius + b.radius - found.distance,
@@ -268,7 +268,7 @@ impl PairGeometry {
             flat: found.flat.then_some((spin, found.distance)),
             velocity: b.velocity(bodies),
             spins: (0.0, spin),
-            pair: Pair {
+            pair: ContactSides {
                 index: index as u32,
                 normal: -found.normal,
                 a: SideA::Wall(bodies.whole_wall(wall) as u32),
@@ -347,11 +347,11 @@ impl PairGeometry {
     /// The relative accelerations along normal and tangent without any force. They come from the rotation of the
     /// contact's frame and the change of its lever arms.
     pub fn inertial(&self, shares: Shares, bodies: &Bodies) -> (f64, f64) {
-        let own = |end: &End| {
+        let own = |end: &ContactEnd| {
             let (acceleration, turning) = bodies.prescribed.acceleration(end.body);
             end.arm * -(bodies.spin[end.body] * bodies.spin[end.body]) + acceleration + end.arm.perp() * turning
         };
-        let spinning = |end: Option<&End>| end.map_or(0.0, |end| bodies.prescribed.acceleration(end.body).1);
+        let spinning = |end: Option<&ContactEnd>| end.map_or(0.0, |end| bodies.prescribed.acceleration(end.body).1);
         let free = own(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, own);
         let (radius_a, radius_b) = self.radii(shares);
         let rolling = spinning(self.pair.other_end()) * radius_a + spinning(Some(&self.pair.b)) * radius_b;
@@ -370,12 +370,12 @@ impl PairGeometry {
         self.pair.arms(shares, self.overlap)
     }
 
-    /// The rate of what [`End::mobility`] of both sides sums up to, in 1/(kg s).
+    /// The rate of what [`ContactEnd::mobility`] of both sides sums up to, in 1/(kg s).
     pub fn mobility_rate(&self, bodies: &Bodies) -> f64 {
         let normal = self.pair.normal;
         let swing = normal.perp() * self.swing();
         let (of_a, of_b) = self.glides();
-        let mobility = |end: &End, glides: f64| {
+        let mobility = |end: &ContactEnd, glides: f64| {
             let (lever, spin) = (end.arm.perp_dot(normal), bodies.spin[end.body]);
             let rate = spin * end.arm.perp().perp_dot(normal) + end.arm.perp_dot(swing) - glides;
             2.0 * lever * rate * bodies.inverse_inertia(end.body)
@@ -392,7 +392,7 @@ impl PairGeometry {
 
     /// The rate of [`PairGeometry::parting`] under the present forces, in m/s2.
     pub fn parting_rate(&self, shares: Shares, bodies: &Bodies) -> f64 {
-        let acceleration = |end: &End| {
+        let acceleration = |end: &ContactEnd| {
             bodies.force[end.body] * bodies.inverse_mass(end.body)
                 + end.arm.perp() * (bodies.torque[end.body] * bodies.inverse_inertia(end.body))
         };
@@ -439,7 +439,7 @@ impl PairGeometry {
     /// The greatest possible relative acceleration in m/s2 of both sides. The distance of two centres bends downwards
     /// by no more than that, because all other terms bend it upwards.
     pub fn bend(&self, bodies: &Bodies) -> f64 {
-        let acceleration = |end: &End| {
+        let acceleration = |end: &ContactEnd| {
             let body = end.body;
             let (led, turned) = bodies.prescribed.acceleration(body);
             let turning = bodies.torque[body] * bodies.inverse_inertia(body) + turned;

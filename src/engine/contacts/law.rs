@@ -10,7 +10,7 @@ use glam::DVec2;
 use super::geometry::PairGeometry;
 use super::{Probe, Surface, search};
 use crate::tick::critical_step::{Spring, Springs};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Departure, Dependence, Energies, EvaluationMode, Events, Fastest, Holder, Model, Objection, Rhythm, State,
@@ -45,7 +45,7 @@ pub enum LawSide {
 }
 
 /// A contact law from outside, for [`add_law`]: a model that uses [`State::pairs`].
-pub trait Law: Model {
+pub trait ContactLaw: Model {
     /// Its name in scenes.
     fn law(&self) -> &'static str;
 
@@ -55,7 +55,7 @@ pub trait Law: Model {
 
 /// Adds a contact law with the search for pairs, and the results of contacts on the card. These are the deepest
 /// overlap, the elastic energy and the critical tick.
-pub fn add_law(app: &mut App, law: impl Law) {
+pub fn add_law(app: &mut App, law: impl ContactLaw) {
     search::plugin(app);
     app.add_model(Watched { law, found: TimeScales::default(), springs: Springs::default(), next: 0 });
 }
@@ -68,7 +68,7 @@ struct Watched<L> {
     next: u64,
 }
 
-impl<L: Law> Model for Watched<L> {
+impl<L: ContactLaw> Model for Watched<L> {
     fn name(&self) -> &'static str {
         self.law.name()
     }
@@ -81,7 +81,7 @@ impl<L: Law> Model for Watched<L> {
         }
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let law: Option<Vec<u8>>;
         (law, self.found, self.next) = recall(bytes)?;
         law.map_or(Ok(()), |bytes| self.law.load(&bytes))
@@ -189,7 +189,7 @@ impl<L: Law> Model for Watched<L> {
     }
 }
 
-impl<L: Law> Watched<L> {
+impl<L: ContactLaw> Watched<L> {
     /// Notes the deepest overlap, and now and then the response of the contacts.
     fn watch(&mut self, state: &mut State) {
         let touching = touching(state);

@@ -15,7 +15,7 @@ use crate::world::{Body, Wall, atom};
 pub use crate::tick::pairs::{AtomPair, CandidatePairs, Probe, Surface, SurfacePair};
 pub use crate::tick::touch::{ContactForces, ContactPoint, DeepestOverlap, Other, Overlap, Touches};
 pub use events::{ContactEvents, ContactEventsAppExt};
-pub use law::{Law, LawSide, LawTouch, add_law};
+pub use law::{ContactLaw, LawSide, LawTouch, add_law};
 
 const MEANING: &str = "\
 The law by which touching bodies and walls push each other. Without this section it is `Penalty` with its defaults, if bodies \

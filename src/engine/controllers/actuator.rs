@@ -2,15 +2,15 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::driven::{self, Driven};
 use super::output::{self, Output};
-use super::target::Target;
+use super::target::ControlTarget;
 use crate::scene::units::dimension::{OfForce, OfTorque};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Energies, ForceOn, Model, Rhythm, State, SteadySpring, TickAppExt};
 
 /// Turns a hinge by a torque, or pushes a slide by a force, that follows a course in time.
@@ -22,17 +22,13 @@ struct Actuator {
     /// The joint.
     of: String,
     /// Torque in N m on `b`, counter-clockwise. For a slide it is the force in N along its axis.
-    force: Target<OfTorque, OfForce>,
+    force: ControlTarget<OfTorque, OfForce>,
 }
 
 impl Entry for Actuator {
     const SECTION: &'static str = "controllers";
     const NAME: &'static str = "Actuator";
     const EXAMPLE: &'static str = "Actuator(of: \"piston\", force: Sine(amplitude: 3, frequency: 2))";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);
@@ -43,8 +39,8 @@ impl Entry for Actuator {
         self.force.check("force", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for (WrittenEntry { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             let output = Output::named(value.name, path);
             app.add_model(ActuatorForce {
                 output,
@@ -62,7 +58,7 @@ pub(super) fn plugin(app: &mut App) {
 struct ActuatorForce {
     output: Output,
     driven: Driven,
-    force: Target<OfTorque, OfForce>,
+    force: ControlTarget<OfTorque, OfForce>,
 }
 
 impl Model for ActuatorForce {
@@ -109,7 +105,7 @@ impl Model for ActuatorForce {
         Memory::of(&self.output.values)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.output.values = recall(bytes)?;
         Ok(())
     }

@@ -6,11 +6,11 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::joints::KnownJoints;
-use crate::joints::ends::{Along, End, Ends, Pair};
-use crate::joints::law::Law;
+use crate::joints::ends::{Along, EndPair, JointEnd, JointEnds};
+use crate::joints::law::JointLaw;
 use crate::scene::units::dimension::{OfForce, OfSpeed, OfSpin, OfTorque};
 use crate::scene::units::{Either, Said};
-use crate::scene::{Diagnostics, Kind, Outline, SceneError};
+use crate::scene::{Diagnostics, NameKind, Outline, SceneError};
 use crate::tick::{ForceOn, ForcePart, LoadErrors, State};
 use crate::world::Bodies;
 
@@ -25,12 +25,12 @@ pub(super) struct Driven {
     name: String,
     /// Fields of the controller whose units require a hinge (first) or a slide (second).
     given: Vec<(&'static str, Said)>,
-    found: Option<(Ends, Arc<dyn Law>)>,
+    found: Option<(JointEnds, Arc<dyn JointLaw>)>,
 }
 
 /// The motion that is driven, in the present state.
-pub(super) struct Motion {
-    pub pair: Pair,
+pub(super) struct DrivenMotion {
+    pub pair: EndPair,
     pub along: Along,
     /// In rad or m.
     pub value: f64,
@@ -40,7 +40,7 @@ pub(super) struct Motion {
 
 /// Reports a joint that is not there.
 pub(super) fn check(of: &str, outline: &Outline, report: &mut Diagnostics) {
-    outline.require(Kind::JOINT, of, "of", report);
+    outline.require(NameKind::JOINT, of, "of", report);
 }
 
 impl Driven {
@@ -99,11 +99,11 @@ impl Driven {
     }
 
     /// The motion in the present state; `None` if a body is gone.
-    pub fn motion(&self, bodies: &Bodies) -> Option<Motion> {
+    pub fn motion(&self, bodies: &Bodies) -> Option<DrivenMotion> {
         let (ends, law) = self.found.as_ref()?;
         let pair = ends.pair(bodies)?;
         let freedom = law.freedom(&pair)?;
-        Some(Motion { rate: pair.rate(&freedom.along), value: freedom.value, along: freedom.along, pair })
+        Some(DrivenMotion { rate: pair.rate(&freedom.along), value: freedom.value, along: freedom.along, pair })
     }
 
     /// Looks up the bodies again after some came or went.
@@ -115,13 +115,13 @@ impl Driven {
 
     /// For sensors: the force on a body that `amount` N m or N along the motion gives.
     pub fn force_on(&self, state: &State, body: usize, amount: f64) -> Option<ForceOn> {
-        let Motion { pair, along, .. } = self.motion(state.bodies())?;
-        let end = |end: &End, side: (DVec2, f64)| (end.body, end.position, side.0 * amount);
+        let DrivenMotion { pair, along, .. } = self.motion(state.bodies())?;
+        let end = |end: &JointEnd, side: (DVec2, f64)| (end.body, end.position, side.0 * amount);
         ForceOn::of_ends(ForcePart::Joint, body, [end(&pair.a, along.sides[0]), end(&pair.b, along.sides[1])])
     }
 
     /// Adds a torque in N m, or a force in N, along the motion. Its power is work.
-    pub fn push(motion: &Motion, amount: f64, state: &mut State) {
+    pub fn push(motion: &DrivenMotion, amount: f64, state: &mut State) {
         let power = motion.pair.push(&motion.along, amount, state);
         state.bodies_and_rates().1.work += power;
     }

@@ -3,15 +3,15 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::driven::{self, Driven, DrivenForce, DrivenSpeed, Motion};
+use super::driven::{self, Driven, DrivenForce, DrivenMotion, DrivenSpeed};
 use super::output::{self, Output};
-use crate::constraints::{Kind, Row, Rows};
+use crate::constraints::{Row, RowKind, Rows};
 use crate::joints::bounded::Bounded;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Blow, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
@@ -35,10 +35,6 @@ impl Entry for Motor {
     const NAME: &'static str = "Motor";
     const EXAMPLE: &'static str = "Motor(name: \"drive\", of: \"hip\", speed: \"30 rpm\", limit: 10)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);
     }
@@ -49,8 +45,8 @@ impl Entry for Motor {
         report.positive_if_given("limit", self.limit);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for (WrittenEntry { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             app.add_model(MotorRow {
                 output: Output::named(value.name, path),
                 driven: Driven::named(value.of)
@@ -111,8 +107,8 @@ impl Model for MotorRow {
         if state.evaluation().mode == EvaluationMode::Frozen {
             return;
         }
-        let Motion { pair, along, .. } = &motion;
-        let acceleration = pair.row(along, Kind::Velocity).acceleration(&state.bodies);
+        let DrivenMotion { pair, along, .. } = &motion;
+        let acceleration = pair.row(along, RowKind::Velocity).acceleration(&state.bodies);
         if self.held.follow(pair, along) || self.held.reaches(pair, along, (acceleration, state.span().length)) {
             state.change_rows();
             if self.held.given().is_none() {
@@ -171,7 +167,7 @@ impl Model for MotorRow {
         Memory::of(&(self.held, &self.output.values))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.held, self.output.values) = recall(bytes)?;
         Ok(())
     }

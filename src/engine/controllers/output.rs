@@ -1,9 +1,9 @@
 //! The action of a controller in the last evaluation, for its channels.
 
-use crate::scene::{Kind, Outline};
+use crate::scene::{NameKind, Outline};
 
 /// Names of controllers.
-pub const CONTROLLER: Kind = Kind::new("controller");
+pub const CONTROLLER: NameKind = NameKind::new("controller");
 
 /// The output of a controller.
 #[derive(Clone, Debug)]

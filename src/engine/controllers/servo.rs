@@ -10,19 +10,19 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 use std::collections::VecDeque;
 
-use super::driven::{self, Driven, DrivenForce, Motion};
+use super::driven::{self, Driven, DrivenForce, DrivenMotion};
 use super::output::{self, Output};
-use super::target::Target;
-use crate::constraints::Kind;
+use super::target::ControlTarget;
+use crate::constraints::RowKind;
 use crate::scene::units::dimension::{OfAngle, OfLength};
 use crate::scene::units::{Rate, Scalar, Time};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{
     Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
 };
@@ -37,7 +37,7 @@ struct Servo {
     /// The joint.
     of: String,
     /// The angle in rad or with a unit. For a slide it is the travel in metres or with a unit.
-    target: Target<OfAngle, OfLength>,
+    target: ControlTarget<OfAngle, OfLength>,
     /// The proportional gain in N m/rad, or N/m for a slide. Not negative.
     kp: Scalar,
     /// The integral gain in N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
@@ -60,10 +60,6 @@ impl Entry for Servo {
     const NAME: &'static str = "Servo";
     const EXAMPLE: &'static str = "Servo(of: \"hip\", target: \"40 deg\", kp: 20, kd: 5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
         output::declare(self.name.as_deref(), outline);
     }
@@ -84,8 +80,8 @@ impl Entry for Servo {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for (Written { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for (WrittenEntry { value, .. }, path) in entries.into_iter().zip(output::paths(Self::NAME, outline)) {
             app.add_model(ServoForce {
                 output: Output::named(value.name, path),
                 driven: Driven::named(value.of)
@@ -116,7 +112,7 @@ pub(super) fn plugin(app: &mut App) {
 struct ServoForce {
     output: Output,
     driven: Driven,
-    target: Target<OfAngle, OfLength>,
+    target: ControlTarget<OfAngle, OfLength>,
     gains: [f64; 3],
     limit: f64,
     /// Its sampled output, if it has a sampling rate.
@@ -203,12 +199,12 @@ impl ServoForce {
     }
 
     /// The output without its bounds, in N m or N.
-    fn free(&self, motion: &Motion, (target, rate): (f64, f64)) -> f64 {
+    fn free(&self, motion: &DrivenMotion, (target, rate): (f64, f64)) -> f64 {
         let [kp, ki, kd] = self.gains;
         kp * (target - motion.value) + ki * self.integral + kd * (rate - motion.rate)
     }
 
-    fn bounded(&self, motion: &Motion, aim: (f64, f64)) -> f64 {
+    fn bounded(&self, motion: &DrivenMotion, aim: (f64, f64)) -> f64 {
         self.free(motion, aim).clamp(-self.limit, self.limit)
     }
 
@@ -228,7 +224,7 @@ impl ServoForce {
         let [kp, ki, kd] = self.gains;
         let (time, mode) = (state.evaluation().time, state.evaluation().mode);
         let (target, rate) = self.aim(time, mode);
-        let acceleration = motion.pair.row(&motion.along, Kind::Velocity).acceleration(&state.bodies);
+        let acceleration = motion.pair.row(&motion.along, RowKind::Velocity).acceleration(&state.bodies);
         let slope = kp * (rate - motion.rate)
             + ki * (target - motion.value)
             + kd * (self.target.acceleration(time) - acceleration);
@@ -353,7 +349,7 @@ impl Model for ServoForce {
         Memory::of(&(self.integral, self.mode, self.inside, &self.sampling, &self.output.values))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.integral, self.mode, self.inside, self.sampling, self.output.values) = recall(bytes)?;
         Ok(())
     }
@@ -378,7 +374,7 @@ impl Events for ServoForce {
     }
 
     fn rates(&self, state: &State, rates: &mut [f64]) {
-        let error = |motion: Motion| self.target.at(state.evaluation().time) - motion.value;
+        let error = |motion: DrivenMotion| self.target.at(state.evaluation().time) - motion.value;
         rates.fill(self.driven.motion(&state.bodies).map_or(0.0, error));
     }
 

@@ -10,7 +10,7 @@ use crate::scene::read_value;
 use crate::scene::units::{Dimension, Either, Said, plain_name};
 
 /// A number with or without a unit of one of two dimensions, or a course in time in SI units.
-pub struct Target<A, B> {
+pub struct ControlTarget<A, B> {
     value: Value,
     said: Option<Said>,
     dimensions: PhantomData<fn() -> (A, B)>,
@@ -24,7 +24,7 @@ enum Value {
     Course(Course),
 }
 
-impl<'de, A: Dimension, B: Dimension> Deserialize<'de> for Target<A, B> {
+impl<'de, A: Dimension, B: Dimension> Deserialize<'de> for ControlTarget<A, B> {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         let written = Box::<ron::value::RawValue>::deserialize(reader)?;
         let text = written.trim().get_ron();
@@ -49,7 +49,7 @@ impl<'de, A: Dimension, B: Dimension> Deserialize<'de> for Target<A, B> {
     }
 }
 
-impl<A: Dimension, B: Dimension> JsonSchema for Target<A, B> {
+impl<A: Dimension, B: Dimension> JsonSchema for ControlTarget<A, B> {
     fn inline_schema() -> bool {
         true
     }
@@ -64,7 +64,7 @@ impl<A: Dimension, B: Dimension> JsonSchema for Target<A, B> {
     }
 }
 
-impl<A, B> Target<A, B> {
+impl<A, B> ControlTarget<A, B> {
     /// The dimension of its unit; `None` without one.
     pub fn said(&self) -> Option<Said> {
         self.said

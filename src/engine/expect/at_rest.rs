@@ -1,14 +1,14 @@
 //! `AtRest(of: "*", from: 18, speed_below: 1e-6)`: from a time on, every point of the bodies is slower than a speed.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
 /// From a time on, every point of the bodies is slower than a speed, at every tick.
 #[derive(Deserialize, JsonSchema)]
@@ -27,19 +27,15 @@ impl Entry for AtRest {
     const NAME: &'static str = "AtRest";
     const EXAMPLE: &'static str = "AtRest(of: \"*\", from: 18, speed_below: 1e-6)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         report.not_negative("from", self.from.si());
         report.positive("speed_below", self.speed_below.si());
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, text } in entries {
-            let keys = value.of.matching(Kind::BODY, outline).into_iter().map(|body| body as u64).collect();
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, text } in entries {
+            let keys = value.of.matching(NameKind::BODY, outline).into_iter().map(|body| body as u64).collect();
             let (from, below) = (value.from.si(), value.speed_below.si());
             Expectations::add(app, text, Watching { keys, from, below, fastest: None });
         }
@@ -58,7 +54,7 @@ impl Watch for Watching {
         Memory::of(&self.fastest)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.fastest = recall(bytes)?;
         Ok(())
     }

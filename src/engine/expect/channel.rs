@@ -2,15 +2,15 @@
 //! is checked at every tenth tick and at the end.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
 use crate::scene::units::{Scalar, Time};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
 /// The magnitude of a channel stays below a bound, at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]
@@ -30,20 +30,16 @@ impl Entry for Channel {
     const NAME: &'static str = "Channel";
     const EXAMPLE: &'static str = "Channel(name: \"energy.residual\", below: 1e-6)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         sensors::check_channel(&self.name, "name", outline, report);
         report.not_negative("from", self.from.si());
         report.positive("below", self.below.si());
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let paths =
             outline.entries(Self::SECTION).iter().filter(|entry| entry.name == Self::NAME).map(|entry| &entry.path);
-        for (Written { value, text }, path) in entries.into_iter().zip(paths) {
+        for (WrittenEntry { value, text }, path) in entries.into_iter().zip(paths) {
             let channel = sensors::require(app.world_mut(), outline, &value.name, format!("{path}.name"));
             let (below, from) = (value.below.si(), value.from.si());
             let energy = value.name.split_once('.').and_then(|(owner, quantity)| energy::entry(owner, quantity));
@@ -66,7 +62,7 @@ impl Watch for Watching {
         Memory::of(&self.largest)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.largest = recall(bytes)?;
         Ok(())
     }

@@ -2,14 +2,14 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
-use crate::scene::units::Position as Place;
+use crate::scene::units::LengthPair as Place;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
 /// The centres of mass stay in a box, at every tick.
 #[derive(Deserialize, JsonSchema)]
@@ -26,24 +26,20 @@ impl Entry for Inside {
     const NAME: &'static str = "Inside";
     const EXAMPLE: &'static str = "Inside(of: \"*\", box: ((0, 0), (6, 6)))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         let (low, high) = (self.r#box.0.si(), self.r#box.1.si());
         if !low.cmplt(high).all() {
             report.error("box", "the first corner must be below and to the left of the second");
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, text } in entries {
-            let bodies = value.of.matching(Kind::BODY, outline);
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, text } in entries {
+            let bodies = value.of.matching(NameKind::BODY, outline);
             let watch = Watching {
                 keys: bodies.iter().map(|&body| body as u64).collect(),
-                names: bodies.iter().map(|&body| outline.names(Kind::BODY)[body].clone()).collect(),
+                names: bodies.iter().map(|&body| outline.names(NameKind::BODY)[body].clone()).collect(),
                 low: value.r#box.0.si(),
                 high: value.r#box.1.si(),
                 escaped: None,
@@ -66,7 +62,7 @@ impl Watch for Watching {
         Memory::of(&self.escaped)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.escaped = recall(bytes)?;
         Ok(())
     }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::energy::EnergyLedger;
-use crate::tick::snapshot::{Memory, Unfit, Unsaved};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, Unsaved};
 use crate::tick::{State, add_looker};
 use crate::world::Bodies;
 
@@ -80,7 +80,7 @@ pub trait Watch: Send + Sync + 'static {
     ///
     /// # Errors
     /// If the bytes are not its own.
-    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, _: &[u8]) -> Result<(), UnfitSnapshot> {
         Ok(())
     }
 
@@ -98,7 +98,7 @@ pub struct Expectations {
 
 /// The outcome of an expectation.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Outcome {
+pub struct ExpectationOutcome {
     /// The expectation in the text of the scene.
     pub text: String,
     /// Whether it held.
@@ -140,7 +140,7 @@ impl Expectations {
     }
 
     /// Goes on from what [`Expectations::save`] gave.
-    pub(crate) fn load(&mut self, saved: &[Option<Vec<u8>>]) -> Result<(), Unfit> {
+    pub(crate) fn load(&mut self, saved: &[Option<Vec<u8>>]) -> Result<(), UnfitSnapshot> {
         for ((_, watch), bytes) in self.watches.iter_mut().zip(saved) {
             bytes.as_ref().map_or(Ok(()), |bytes| watch.load(bytes))?;
         }
@@ -148,13 +148,13 @@ impl Expectations {
     }
 
     /// The outcome of each expectation so far.
-    pub fn outcomes(&self) -> Vec<Outcome> {
+    pub fn outcomes(&self) -> Vec<ExpectationOutcome> {
         let outcome = |(text, watch): &(String, Box<dyn Watch>)| {
             let (holds, mut measured) = watch.verdict();
             if holds.is_none() {
                 measured = format!("the run ended too early to judge it; {measured}");
             }
-            Outcome { text: text.clone(), holds: holds == Some(true), measured, judged: holds.is_some() }
+            ExpectationOutcome { text: text.clone(), holds: holds == Some(true), measured, judged: holds.is_some() }
         };
         self.watches.iter().map(outcome).collect()
     }

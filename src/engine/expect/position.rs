@@ -2,13 +2,13 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
-use crate::scene::units::{Length, Position as Place, Time};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::units::{Length, LengthPair as Place, Time};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::world::between::{MotionSample, position_between};
 
 /// A body is at a place at a time, which may lie between ticks.
@@ -30,19 +30,15 @@ impl Entry for Position {
     const NAME: &'static str = "Position";
     const EXAMPLE: &'static str = "Position(of: \"ball\", at: 2, is: (2, 0.2), within: 1e-3)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require(Kind::BODY, &self.of, "of", report);
+        outline.require(NameKind::BODY, &self.of, "of", report);
         report.not_negative("at", self.at.si());
         report.positive("within", self.within.si());
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, text } in entries {
-            let Some(body) = outline.position(Kind::BODY, &value.of) else { continue };
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, text } in entries {
+            let Some(body) = outline.position(NameKind::BODY, &value.of) else { continue };
             let watch = Watching {
                 key: body as u64,
                 at: value.at.si(),
@@ -70,7 +66,7 @@ impl Watch for Watching {
         Memory::of(&(self.before, self.found))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.before, self.found) = recall(bytes)?;
         Ok(())
     }

@@ -7,12 +7,12 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
 
@@ -44,22 +44,18 @@ impl Entry for Attraction {
     const NAME: &'static str = "Attraction";
     const EXAMPLE: &'static str = "Attraction(constant: 1.0)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.not_negative("softening", self.softening);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mut paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
         let hard = entries.iter().zip(&mut paths).find(|(entry, _)| entry.value.softening.si() == 0.0);
         if let Some((_, mention)) = hard {
             app.insert_resource(Unsoftened(mention.path.clone()));
             app.world_mut().get_resource_or_init::<AfterLoad>().0.push(refuse_coincident);
         }
-        for Written { value, .. } in entries {
+        for WrittenEntry { value, .. } in entries {
             let (constant, softening) = (value.constant.si(), value.softening.si());
             app.add_model(AttractionForce { constant, softening, nearest: SteepestFall::default() });
         }
@@ -126,7 +122,7 @@ impl Model for AttractionForce {
         Memory::of(&self.nearest)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.nearest = recall(bytes)?;
         Ok(())
     }

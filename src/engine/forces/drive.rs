@@ -17,9 +17,9 @@ use std::borrow::Cow;
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::thrust::ThrustFrame;
 use super::{AppliedAt, Targets, check_targets};
-use crate::scene::units::{self, Angle, ForcePair, Position, Rate, Scalar, Spin, Time};
+use crate::scene::units::{self, Angle, ForcePair, LengthPair, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, State, SteadySpring, TickAppExt};
 
@@ -35,7 +35,7 @@ struct Drive {
     torque: Option<units::Torque>,
     /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
     /// with `datum: Origin`. Default: the centre of mass.
-    at: Option<Position>,
+    at: Option<LengthPair>,
     /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
     frame: ThrustFrame,
@@ -109,10 +109,6 @@ impl Entry for Drive {
     const NAME: &'static str = "Drive";
     const EXAMPLE: &'static str = "Drive(of: \"T\", force: (2, 0), course: Sine(frequency: \"1.5 Hz\"))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.force.is_none() && self.torque.is_none() {
@@ -126,12 +122,12 @@ impl Entry for Drive {
         report.within("course", |report| self.course.check(report));
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for (WrittenEntry { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
             app.add_model(DriveForce {
                 path,
                 of: Targets::named(Some(&value.of), outline),
-                at: AppliedAt::new(value.at.map(Position::si)),
+                at: AppliedAt::new(value.at.map(LengthPair::si)),
                 force: value.force.map_or(DVec2::ZERO, ForcePair::si),
                 torque: value.torque.map_or(0.0, units::Torque::si),
                 turns: value.frame == ThrustFrame::Body,

@@ -6,13 +6,13 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::ballistics::{Arc, Flight, Miss, Shot};
 use super::{drag, wind};
-use crate::scene::units::{Position, Speed};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, SceneError, Written};
+use crate::scene::units::{LengthPair, Speed};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::Notes;
 use crate::tick::{AfterLoad, LoadErrors, State};
 use crate::world::Velocity;
@@ -26,7 +26,7 @@ struct Aim {
     /// The body that flies. It must have no `velocity` in the scene.
     of: String,
     /// The place that it reaches, in metres.
-    at: Position,
+    at: LengthPair,
     /// Its speed at the start in m/s. Above zero.
     speed: Speed,
     /// The lower or the higher one of the two ways. Default: `Low`.
@@ -52,20 +52,16 @@ impl Entry for Aim {
     const NAME: &'static str = "Aim";
     const EXAMPLE: &'static str = "Aim(of: \"ball\", at: (40, 5), speed: 25, arc: High)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require(Kind::BODY, &self.of, "of", report);
+        outline.require(NameKind::BODY, &self.of, "of", report);
         report.positive("speed", self.speed);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mentions = outline.entries(Self::SECTION).iter();
         let paths = mentions.clone().filter(|mention| mention.name == Self::NAME).map(|mention| mention.path.clone());
-        let aim = |(Written { value, .. }, path): (Written<Self>, String)| AimedBody {
-            key: outline.position(Kind::BODY, &value.of).unwrap_or_default() as u64,
+        let aim = |(WrittenEntry { value, .. }, path): (WrittenEntry<Self>, String)| AimedBody {
+            key: outline.position(NameKind::BODY, &value.of).unwrap_or_default() as u64,
             name: value.of,
             at: value.at.si(),
             speed: value.speed.si(),

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::AccelerationPair;
@@ -18,10 +18,6 @@ struct GravitySection(AccelerationPair);
 impl Section for GravitySection {
     const NAME: &'static str = "gravity";
     const EXAMPLE: &'static str = "gravity: (0, -9.81)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn install(self, _: &Outline, app: &mut App) {
         install(self.0.si(), app);

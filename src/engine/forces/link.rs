@@ -7,7 +7,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserialize, Deserializer};
 use std::borrow::Cow;
 
-use crate::scene::{Diagnostics, Kind, Outline, SceneAppExt};
+use crate::scene::{Diagnostics, NameKind, Outline, SceneAppExt};
 use crate::tick::energy::CHANNELS;
 use crate::tick::{Rates, State};
 use crate::world::{Bodies, anchor};
@@ -69,9 +69,9 @@ pub(super) fn check_holds(stiffness: impl Into<f64>, damping: impl Into<f64>, re
 
 /// Reports ends without a body, and two ends on one body.
 pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut Diagnostics) {
-    outline.require(Kind::BODY, a, "a", report);
+    outline.require(NameKind::BODY, a, "a", report);
     if let Partner::Body(b) = b {
-        outline.require(Kind::BODY, b, "b", report);
+        outline.require(NameKind::BODY, b, "b", report);
         if a == b {
             let help = "name two bodies, or hold one to the world with `b: World`";
             report.error("b", format!("both ends are on \"{a}\": the force would move no body")).help(help);
@@ -81,7 +81,7 @@ pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut D
 
 /// Two ends, found again when bodies come or go.
 #[derive(Clone, Debug)]
-pub struct Link {
+pub struct ForceLink {
     keys: (u64, Option<u64>),
     anchors: (DVec2, DVec2),
     generation: u64,
@@ -90,7 +90,7 @@ pub struct Link {
 
 /// An end in the present state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct End {
+pub struct LinkEnd {
     /// Place of its body; `None`: the world.
     pub body: Option<usize>,
     /// From the body's centre of mass, in metres.
@@ -101,7 +101,7 @@ pub struct End {
     pub velocity: DVec2,
 }
 
-impl End {
+impl LinkEnd {
     fn of(body: usize, anchor: DVec2, bodies: &Bodies) -> Self {
         let mut arm = anchor;
         // The centre of mass needs no angle.
@@ -124,7 +124,7 @@ impl End {
     }
 }
 
-impl Link {
+impl ForceLink {
     /// A spring between bodies of these keys, `None` for the world. Anchors are in the frames of the bodies, from their
     /// centres of mass, or in the world, in metres.
     pub fn new(a: u64, b: Option<u64>, anchors: (DVec2, DVec2)) -> Self {
@@ -133,7 +133,7 @@ impl Link {
 
     /// Between the centres of mass of those that a scene names. The keys of a scene's bodies are their places in the outline.
     pub(super) fn named(a: &str, b: &Partner, outline: &Outline) -> Self {
-        let key = |name: &str| outline.position(Kind::BODY, name).unwrap_or_default() as u64;
+        let key = |name: &str| outline.position(NameKind::BODY, name).unwrap_or_default() as u64;
         let b = match b {
             Partner::Body(name) => Some(key(name)),
             Partner::World => None,
@@ -171,17 +171,17 @@ impl Link {
     }
 
     /// Both ends in the present state; `None` if one of the bodies is gone.
-    pub fn ends(&self, bodies: &Bodies) -> Option<(End, End)> {
+    pub fn ends(&self, bodies: &Bodies) -> Option<(LinkEnd, LinkEnd)> {
         let (a, b) = if self.generation == bodies.generation { self.indices } else { self.look_up(bodies) }?;
-        let world = End { body: None, arm: DVec2::ZERO, position: self.anchors.1, velocity: DVec2::ZERO };
-        Some((End::of(a, self.anchors.0, bodies), b.map_or(world, |b| End::of(b, self.anchors.1, bodies))))
+        let world = LinkEnd { body: None, arm: DVec2::ZERO, position: self.anchors.1, velocity: DVec2::ZERO };
+        Some((LinkEnd::of(a, self.anchors.0, bodies), b.map_or(world, |b| LinkEnd::of(b, self.anchors.1, bodies))))
     }
 }
 
 /// The sides of a spring for the measure of its response: a body and an arm each. The first is absent if the world
 /// holds it. `None`: neither end has a body.
-pub(super) fn sides(a: &End, b: &End) -> Option<(Option<Side>, Side)> {
-    let side = |end: &End| end.body.map(|body| (body, end.arm));
+pub(super) fn sides(a: &LinkEnd, b: &LinkEnd) -> Option<(Option<Side>, Side)> {
+    let side = |end: &LinkEnd| end.body.map(|body| (body, end.arm));
     match (side(a), side(b)) {
         (first, Some(second)) => Some((first, second)),
         (Some(second), None) => Some((None, second)),
@@ -194,7 +194,7 @@ type Side = (usize, DVec2);
 
 /// Adds `force` newtons to end A, and the opposite force to the other end. An end that forces do not move takes its force from
 /// outside, and its motion does work.
-pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, rates: &mut Rates) {
+pub(super) fn pull(a: &LinkEnd, b: &LinkEnd, force: DVec2, bodies: &mut Bodies, rates: &mut Rates) {
     for (end, other, force) in [(a, b, force), (b, a, -force)] {
         if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
             bodies.push(body, end.arm, force);
@@ -207,7 +207,7 @@ pub(super) fn pull(a: &End, b: &End, force: DVec2, bodies: &mut Bodies, rates: &
 }
 
 /// Adds `torque` N m to end B and its opposite to end A, likewise.
-pub(super) fn twist(a: &End, b: &End, torque: f64, bodies: &mut Bodies, rates: &mut Rates) {
+pub(super) fn twist(a: &LinkEnd, b: &LinkEnd, torque: f64, bodies: &mut Bodies, rates: &mut Rates) {
     for (end, other, torque) in [(a, b, -torque), (b, a, torque)] {
         if let Some(body) = end.body.filter(|&body| bodies.dynamic[body]) {
             bodies.torque[body] += torque;

@@ -9,14 +9,14 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::link::{self, DAMPING, End, Link, Partner};
-use crate::scene::units::{Damping, Length, Position, Stiffness};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, Written};
+use super::link::{self, DAMPING, ForceLink, LinkEnd, Partner};
+use crate::scene::units::{Damping, Length, LengthPair, Stiffness};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::critical_step;
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
@@ -30,10 +30,10 @@ struct Spring {
     b: Partner,
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`. Default: the
     /// centre of mass.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`. With `World`
     /// it is a place in the world. Default: the centre of mass, or the origin of the world.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// Force over lengthening in N/m. Not negative.
     stiffness: Stiffness,
     /// Force over speed of lengthening in N s/m. Not negative. `2 sqrt(k m)` lets a mass `m` on it come to rest without a
@@ -49,10 +49,6 @@ impl Entry for Spring {
     const NAME: &'static str = "Spring";
     const EXAMPLE: &'static str = "Spring(a: \"left\", b: \"right\", stiffness: 100, damping: 0.5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);
         link::check_holds(self.stiffness, self.damping, report);
@@ -61,12 +57,12 @@ impl Entry for Spring {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let paths = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        for (Written { value, .. }, mention) in entries.into_iter().zip(paths) {
+        for (WrittenEntry { value, .. }, mention) in entries.into_iter().zip(paths) {
             app.add_model(SpringForce {
-                link: Link::named(&value.a, &value.b, outline),
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                link: ForceLink::named(&value.a, &value.b, outline),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
                 power: 0.0,
@@ -82,7 +78,7 @@ impl Entry for Spring {
 #[derive(Clone, Debug)]
 pub struct SpringForce {
     /// Its ends.
-    pub link: Link,
+    pub link: ForceLink,
     /// Its anchors as the scene gives them.
     anchors: [Option<DVec2>; 2],
     /// Stiffness in N/m.
@@ -104,7 +100,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// The state of a spring: direction from A to B, distance in m, and speed of lengthening in m/s.
-fn stretch(a: &End, b: &End) -> (DVec2, f64, f64) {
+fn stretch(a: &LinkEnd, b: &LinkEnd) -> (DVec2, f64, f64) {
     let (between, parting) = (b.position - a.position, b.velocity - a.velocity);
     let distance = between.length();
     let direction = if distance > 0.0 { between / distance } else { parting.normalize_or_zero() };
@@ -145,7 +141,7 @@ impl Model for SpringForce {
         Memory::of(&(self.power, self.force, self.length))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.power, self.force, self.length) = recall(bytes)?;
         Ok(())
     }

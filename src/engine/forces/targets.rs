@@ -1,13 +1,13 @@
 //! The bodies on which a force acts.
 
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Kind, Outline};
+use crate::scene::{Diagnostics, NameKind, Outline};
 use crate::world::Bodies;
 
 /// Reports names of a force's `of` that fit no body.
 pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Diagnostics) {
     if let Some(names) = of {
-        names.require(Kind::BODY, outline, "of", report);
+        names.require(NameKind::BODY, outline, "of", report);
     }
 }
 
@@ -27,7 +27,8 @@ impl Targets {
 
     /// The bodies that fit; `None`: all. The keys of a scene's bodies are their places in the outline.
     pub fn named(of: Option<&Names>, outline: &Outline) -> Self {
-        let keys = |names: &Names| names.matching(Kind::BODY, outline).into_iter().map(|body| body as u64).collect();
+        let keys =
+            |names: &Names| names.matching(NameKind::BODY, outline).into_iter().map(|body| body as u64).collect();
         Self::new(of.map(keys))
     }
 

@@ -7,15 +7,15 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, percent};
 use super::{AppliedAt, Targets, check_targets};
-use crate::scene::units::{ForcePair, Position, Time};
+use crate::scene::units::{ForcePair, LengthPair, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rates, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
@@ -29,7 +29,7 @@ struct Thrust {
     of: Names,
     /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
     /// with `datum: Origin`. Default: the centre of mass.
-    at: Option<Position>,
+    at: Option<LengthPair>,
     /// Force in newtons.
     force: ForcePair,
     /// Whether the force turns with the body. Default: `World`.
@@ -57,10 +57,6 @@ impl Entry for Thrust {
     const NAME: &'static str = "Thrust";
     const EXAMPLE: &'static str = "Thrust(of: \"T\", force: (0, 2), frame: Body, from: 1, to: 1.25)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.to.is_some_and(|to| to.si() <= self.from.si()) {
@@ -68,12 +64,12 @@ impl Entry for Thrust {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for (Written { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for (WrittenEntry { value, .. }, path) in entries.into_iter().zip(paths(Self::NAME, outline)) {
             app.add_model(ThrustForce {
                 path,
                 of: Targets::named(Some(&value.of), outline),
-                at: AppliedAt::new(value.at.map(Position::si)),
+                at: AppliedAt::new(value.at.map(LengthPair::si)),
                 force: value.force.si(),
                 turns: value.frame == ThrustFrame::Body,
                 from: value.from.si(),
@@ -119,7 +115,7 @@ impl Model for ThrustForce {
         Memory::of(&self.acts)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         self.acts = recall(bytes)?;
         Ok(())
     }

@@ -1,12 +1,12 @@
 //! A constant torque on a body.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Targets, check_targets};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written, units};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry, units};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -25,16 +25,12 @@ impl Entry for Torque {
     const NAME: &'static str = "Torque";
     const EXAMPLE: &'static str = "Torque(of: \"flywheel\", value: 0.05)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(ConstantTorque { of: Targets::named(Some(&value.of), outline), value: value.value.si() });
         }
     }

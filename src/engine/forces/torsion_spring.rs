@@ -5,14 +5,14 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::link::{self, DAMPING, End, Link, Partner};
+use super::link::{self, DAMPING, ForceLink, LinkEnd, Partner};
 use crate::scene::units::{Angle, Dimension, Powers, Quantity};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::critical_step;
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Dependence, Energies, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
@@ -59,10 +59,6 @@ impl Entry for TorsionSpring {
     const NAME: &'static str = "TorsionSpring";
     const EXAMPLE: &'static str = "TorsionSpring(a: \"arm\", b: World, stiffness: 2, damping: 0.1)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         link::check_ends(&self.a, &self.b, outline, report);
         link::check_holds(self.stiffness, self.damping, report);
@@ -71,10 +67,10 @@ impl Entry for TorsionSpring {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(TorsionSpringForce {
-                link: Link::named(&value.a, &value.b, outline),
+                link: ForceLink::named(&value.a, &value.b, outline),
                 stiffness: value.stiffness.si(),
                 damping: value.damping.si(),
                 power: 0.0,
@@ -88,7 +84,7 @@ impl Entry for TorsionSpring {
 #[derive(Clone, Debug)]
 pub struct TorsionSpringForce {
     /// Its sides.
-    pub link: Link,
+    pub link: ForceLink,
     /// Stiffness in N m/rad.
     pub stiffness: f64,
     /// Damping in N m s/rad.
@@ -104,7 +100,7 @@ pub(super) fn plugin(app: &mut App) {
 }
 
 /// Angle in rad and spin in rad/s of B relative to A.
-fn twist(a: &End, b: &End, bodies: &Bodies) -> (f64, f64) {
+fn twist(a: &LinkEnd, b: &LinkEnd, bodies: &Bodies) -> (f64, f64) {
     let (a, b) = (a.turn(bodies), b.turn(bodies));
     (b.0 - a.0, b.1 - a.1)
 }
@@ -136,7 +132,7 @@ impl Model for TorsionSpringForce {
         Memory::of(&(self.power, self.angle))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.power, self.angle) = recall(bytes)?;
         Ok(())
     }

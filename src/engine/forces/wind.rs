@@ -5,14 +5,14 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::ballistics::Air;
 use super::{Targets, check_targets};
-use crate::scene::units::{Damping, QuadraticDamping, Velocity};
+use crate::scene::units::{Damping, QuadraticDamping, SpeedPair};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 
@@ -21,7 +21,7 @@ use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 #[serde(deny_unknown_fields)]
 struct Wind {
     /// Velocity of the air in m/s.
-    velocity: Velocity,
+    velocity: SpeedPair,
     /// Linear coefficient in N s/m. Default: 0.
     #[serde(default)]
     linear: Damping,
@@ -37,10 +37,6 @@ impl Entry for Wind {
     const NAME: &'static str = "Wind";
     const EXAMPLE: &'static str = "Wind(velocity: (3, 0), linear: 0.1)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("linear", self.linear);
         report.not_negative("quadratic", self.quadratic);
@@ -50,8 +46,8 @@ impl Entry for Wind {
         check_targets(self.of.as_ref(), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value, .. } in entries {
             app.add_model(Gust {
                 velocity: value.velocity.si(),
                 linear: value.linear.si(),

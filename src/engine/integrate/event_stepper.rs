@@ -16,7 +16,7 @@ use super::locate::{Bracket, IndicatorSample, vanished};
 use super::steps::{Divided, OneStep, Start};
 use crate::tick::Flow;
 use crate::tick::Integrator;
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{EvaluationMode, Indicator, Tick, WorldFlow};
 use serde::{Deserialize, Serialize};
 
@@ -41,7 +41,7 @@ const MOST_REJECTIONS: u64 = 60;
 
 /// How a tick is divided into steps, when nothing happens in it.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Pace {
+pub enum StepPace {
     /// This many equal steps.
     Even(u32),
     /// Steps whose length follows from their error, even beyond a tick. They need a method that estimates its error.
@@ -136,12 +136,12 @@ struct Work {
 impl EventStepper {
     /// A method; `located`: events are located inside ticks. A method without an estimate of its error makes one step
     /// per tick if the pace follows errors.
-    pub fn new(method: Box<dyn OneStep>, located: bool, pace: Pace, detail: Detail) -> Self {
+    pub fn new(method: Box<dyn OneStep>, located: bool, pace: StepPace, detail: Detail) -> Self {
         let method = if detail.parts > 1 { Box::new(Divided::new(method, detail.parts)) } else { method };
         let estimates = method.order_of_error() > 0;
         let (parts, control) = match pace {
-            Pace::Even(parts) => (parts, None),
-            Pace::Allowed(allowance) => (1, estimates.then(|| Control::new(allowance))),
+            StepPace::Even(parts) => (parts, None),
+            StepPace::Allowed(allowance) => (1, estimates.then(|| Control::new(allowance))),
         };
         let (state, rest, work) = (Vec::new(), Vec::new(), Work::default());
         let patience = if control.is_some() { EVENTS_PER_FRAME / detail.looks } else { 1 };
@@ -510,11 +510,11 @@ impl Integrator for EventStepper {
         })
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let Remembered { state, rest, under_way, steps, looked, work, overload, control, whole, method } =
             recall(bytes)?;
         if control.is_some() != self.control.is_some() || whole.is_some() != self.whole.is_some() {
-            return Err(Unfit("the integrator was another one".to_owned()));
+            return Err(UnfitSnapshot("the integrator was another one".to_owned()));
         }
         if let (Some(own), Some(saved)) = (&mut self.whole, whole) {
             own.recall(saved);

@@ -4,7 +4,7 @@
 //! provides the forces of the state at the end.
 
 mod chosen;
-pub mod clock;
+pub mod clock_section;
 mod control;
 mod event_free_ticks;
 mod event_overload;
@@ -19,9 +19,9 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 pub use chosen::ChosenMethod;
-pub use clock::{ClockSection, EventTiming};
+pub use clock_section::{ClockSection, EventTiming};
 pub use control::{Allowance, MOST_STEPS};
-pub use event_stepper::{Detail, EventStepper, Pace};
+pub use event_stepper::{Detail, EventStepper, StepPace};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use velocity_verlet::VelocityVerlet;
 
@@ -55,7 +55,7 @@ impl Description {
     /// The method with the requested timing of events, and whether it locates them. `None` if it cannot.
     ///
     /// A pace other than one step per tick requires a method with steps inside ticks. Steps in parts require it too.
-    pub fn make(&self, events: EventTiming, pace: Pace, detail: Detail) -> Option<(Method, bool)> {
+    pub fn make(&self, events: EventTiming, pace: StepPace, detail: Detail) -> Option<(Method, bool)> {
         let limit = if self.stability_limit.is_normal() { self.stability_limit } else { USUAL_LIMIT };
         let fine = Detail { swing: limit * detail.swing, ..detail };
         let stepper = |located: bool| {
@@ -68,7 +68,7 @@ impl Description {
         };
         let whole = self
             .whole_ticks
-            .filter(|_| pace == Pace::Even(1) && detail == Detail::default())
+            .filter(|_| pace == StepPace::Even(1) && detail == Detail::default())
             .map(|make| (make(), false));
         match events {
             EventTiming::Auto => whole.or_else(|| stepper(true)),

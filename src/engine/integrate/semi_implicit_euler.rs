@@ -20,7 +20,7 @@ pub(super) const DESCRIPTION: Description = Description {
     stability_limit: 2.0,
     damping_limit: 2.0,
     whole_ticks: Some(|| Method(Box::new(SemiImplicitEuler))),
-    one_step: Some(|| Box::new(super::steps::SemiImplicitEuler::default())),
+    one_step: Some(|| Box::new(super::steps::SemiImplicitEulerStep::default())),
 };
 
 impl Integrator for SemiImplicitEuler {

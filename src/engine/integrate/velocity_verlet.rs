@@ -24,7 +24,7 @@ pub(super) const DESCRIPTION: Description = Description {
     stability_limit: 2.0,
     damping_limit: 1.0,
     whole_ticks: Some(|| Method(Box::new(VelocityVerlet))),
-    one_step: Some(|| Box::new(super::steps::VelocityVerlet::default())),
+    one_step: Some(|| Box::new(super::steps::VelocityVerletStep::default())),
 };
 
 impl Integrator for VelocityVerlet {

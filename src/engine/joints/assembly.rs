@@ -2,9 +2,9 @@
 
 use bevy_ecs::prelude::*;
 
-use super::model::Joint;
+use super::joint_model::Joint;
 use crate::scene::SceneError;
-use crate::tick::{LoadErrors, Notes, State, Wrong};
+use crate::tick::{FailureKind, LoadErrors, Notes, State};
 use crate::world::{Name, Position, Rotation, Spin, Velocity};
 use jostle_language::numbers::number;
 
@@ -21,7 +21,7 @@ pub(super) fn assemble(world: &mut World) {
     let turned = state.bodies().angle.clone();
     let moving: Vec<_> = state.bodies().velocity.iter().copied().zip(state.bodies().spin.iter().copied()).collect();
     let assembled = state.assemble();
-    if let Err((Wrong::Contradiction, body)) = assembled {
+    if let Err((FailureKind::Contradiction, body)) = assembled {
         let entity = body.map(|body| state.bodies().entity[body]);
         let name = entity.and_then(|entity| world.get::<Name>(entity)).map(Name::to_string).unwrap_or_default();
         let message = format!("motors and joints ask for different motions of `{name}`: no velocity suits them all");

@@ -3,8 +3,8 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::ends::{Along, Pair};
-use crate::constraints::{Kind, Row, Share};
+use super::ends::{Along, EndPair};
+use crate::constraints::{Row, RowKind, Share};
 use crate::tick::{Indicator, State};
 
 /// A rate counts as held if its deviation is below this share of the spins and speeds behind it.
@@ -64,9 +64,9 @@ impl Bounded {
     }
 
     /// The row that holds the rate, while it is held.
-    pub fn row(&self, pair: &Pair, along: &Along) -> Option<Row> {
+    pub fn row(&self, pair: &EndPair, along: &Along) -> Option<Row> {
         let share = Share { natural: 0.0, measure: if self.is_bounded() { LESS } else { 1.0 } };
-        let row = Row { rate: self.speed, bound: self.limit, share, ..pair.row(along, Kind::Velocity) };
+        let row = Row { rate: self.speed, bound: self.limit, share, ..pair.row(along, RowKind::Velocity) };
         (self.mode == Mode::Holds).then_some(row)
     }
 
@@ -81,7 +81,7 @@ impl Bounded {
     }
 
     /// The distance of the rate from the one to hold, or `None` if it is only rounding.
-    fn missing(&self, pair: &Pair, along: &Along) -> f64 {
+    fn missing(&self, pair: &EndPair, along: &Along) -> f64 {
         let missing = self.speed - pair.rate(along);
         let share = if self.farthest == 0.0 { ROUNDING } else { SAME };
         let same = share * (self.farthest + self.speed.abs() + pair.speeds(along));
@@ -104,7 +104,7 @@ impl Bounded {
     }
 
     /// Chooses the mode of a state. Says whether that is another one.
-    pub fn choose(&mut self, pair: &Pair, along: &Along) -> bool {
+    pub fn choose(&mut self, pair: &EndPair, along: &Along) -> bool {
         let missing = self.missing(pair, along);
         self.farthest = self.farthest.max((self.speed - pair.rate(along)).abs());
         let mode = match self.mode {
@@ -119,7 +119,7 @@ impl Bounded {
 
     /// Chooses the mode after a jump of velocities. If the rate is the required one, it is held for a try, because its
     /// torque may have to reverse.
-    pub fn after_blow(&mut self, pair: &Pair, along: &Along) {
+    pub fn after_blow(&mut self, pair: &EndPair, along: &Along) {
         if self.is_bounded() && self.missing(pair, along) == 0.0 {
             self.hold();
         } else {
@@ -128,7 +128,7 @@ impl Bounded {
     }
 
     /// Between ticks: begins to hold a rate that has passed the required one.
-    pub fn follow(&mut self, pair: &Pair, along: &Along) -> bool {
+    pub fn follow(&mut self, pair: &EndPair, along: &Along) -> bool {
         match self.mode {
             Mode::Holds if self.torque.abs() > self.limit => self.set(Mode::Gives(self.torque.signum())),
             Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) < 0.0 => self.set(Mode::Holds),
@@ -137,7 +137,7 @@ impl Bounded {
     }
 
     /// Between ticks: begins to hold a rate that will reach the required one within the tick. Returns whether it does.
-    pub fn reaches(&mut self, pair: &Pair, along: &Along, (acceleration, tick): (f64, f64)) -> bool {
+    pub fn reaches(&mut self, pair: &EndPair, along: &Along, (acceleration, tick): (f64, f64)) -> bool {
         match self.mode {
             Mode::Gives(sign) if sign * (self.speed - pair.rate(along)) <= sign * acceleration * tick => {
                 self.set(Mode::Holds)
@@ -161,7 +161,7 @@ impl Bounded {
     }
 
     /// Adds the indicator of the mode. It is the distance of the torque from its bounds, or of the rate from the required one.
-    pub fn tell(&mut self, pair: &Pair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
+    pub fn tell(&mut self, pair: &EndPair, along: &Along, state: &State, told: &mut Vec<Indicator>) {
         (self.stands, self.tries) = (false, false);
         let rounding = ROUNDING * self.limit;
         let missing = self.speed - pair.rate(along);
@@ -169,7 +169,7 @@ impl Bounded {
         match self.mode {
             _ if !self.is_bounded() => {}
             Mode::Holds => {
-                let bend = pair.bend_of_row(&pair.row(along, Kind::Velocity), 2.0 * self.limit, state);
+                let bend = pair.bend_of_row(&pair.row(along, RowKind::Velocity), 2.0 * self.limit, state);
                 told.extend([1.0, -1.0].map(|sign| Indicator {
                     value: self.limit - sign * self.torque,
                     slope: f64::NAN,
@@ -179,7 +179,7 @@ impl Bounded {
                 }));
             }
             Mode::Gives(sign) => {
-                let row = pair.row(along, Kind::Velocity);
+                let row = pair.row(along, RowKind::Velocity);
                 let acceleration = row.acceleration(state.bodies());
                 let own = self.limit * row.response(&row, state.bodies());
                 self.stands = self.missing(pair, along) == 0.0 && acceleration.abs() <= SAME * own;

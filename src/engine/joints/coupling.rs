@@ -13,11 +13,11 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::KnownJoints;
-use super::ends::{Along, Ends, Pair};
-use super::law::{Freedom, Held, Law};
-use crate::constraints::{Kind as Holds, Row, Rows, Side};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneError};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use super::ends::{Along, EndPair, JointEnds};
+use super::law::{Freedom, Held, JointLaw};
+use crate::constraints::{Row, RowKind as Holds, RowSide, Rows};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneError};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Energies, ForceOn, ForcePart, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 use std::sync::Arc;
@@ -25,7 +25,7 @@ use std::sync::Arc;
 /// Reports joints that are not there, or one twice.
 pub(super) fn check(of: &(String, String), outline: &Outline, report: &mut Diagnostics) {
     for (name, path) in [(&of.0, "of[0]"), (&of.1, "of[1]")] {
-        outline.require(Kind::JOINT, name, path, report);
+        outline.require(NameKind::JOINT, name, path, report);
     }
     if of.0 == of.1 {
         report.error("of", format!("both joints are \"{}\"", of.0)).help("name two joints");
@@ -41,7 +41,7 @@ pub(super) enum Member {
 
 impl Member {
     /// Whether a joint with this law is one.
-    fn is(self, law: &dyn Law) -> bool {
+    fn is(self, law: &dyn JointLaw) -> bool {
         let free = if self == Self::Hinge { "angle" } else { "travel" };
         law.freedom_name().0 == free && !law.needs_distance()
     }
@@ -86,7 +86,7 @@ pub(super) fn install<E: Entry>(
     }
 }
 
-type Coupled = (Ends, Arc<dyn Law>);
+type Coupled = (JointEnds, Arc<dyn JointLaw>);
 
 /// The axis of a slide, in the world.
 fn axis(travel: &Along) -> DVec2 {
@@ -126,8 +126,8 @@ struct Mesh {
 impl Mesh {
     /// The mesh of a hinge and a slide with a body in common, which is their frame. All bodies that do not move by
     /// forces count as one body.
-    fn of(hinge: &Pair, slide: &Pair, bodies: &Bodies) -> Option<Self> {
-        let moving = |pair: &Pair| [pair.a, pair.b].map(|end| end.body.filter(|&body| bodies.moves[body]));
+    fn of(hinge: &EndPair, slide: &EndPair, bodies: &Bodies) -> Option<Self> {
+        let moving = |pair: &EndPair| [pair.a, pair.b].map(|end| end.body.filter(|&body| bodies.moves[body]));
         let (hinge, slide) = (moving(hinge), moving(slide));
         let mut ways = [(0, 0), (0, 1), (1, 0), (1, 1)].into_iter();
         let (one, two) = ways.find(|&(one, two)| hinge[one] == slide[two])?;
@@ -140,14 +140,14 @@ impl Mesh {
     }
 
     /// The pitch point in metres, for an axis and a radius.
-    fn point(self, hinge: &Pair, axis: DVec2, radius: f64) -> DVec2 {
+    fn point(self, hinge: &EndPair, axis: DVec2, radius: f64) -> DVec2 {
         let [pinion, rack] = self.signs();
         let pin = if self.pinion == 1 { hinge.b } else { hinge.a };
         pin.position - pinion * rack * radius * axis.perp()
     }
 
     /// Removes the motion of the frame from a row, by means of the rows of the hinge and the slide.
-    fn hold(self, sum: &mut Sum, axis: DVec2, [(hinge, pin), (slide, rail)]: [(&Pair, &dyn Law); 2]) {
+    fn hold(self, sum: &mut Sum, axis: DVec2, [(hinge, pin), (slide, rail)]: [(&EndPair, &dyn JointLaw); 2]) {
         let [pinion, rack] = self.signs();
         pin.hold(hinge, &mut |held| sum.add(hinge, &held, -pinion * rack * held.along.sides[1].0.dot(axis)));
         rail.hold(slide, &mut |held| {
@@ -162,11 +162,11 @@ impl Mesh {
 /// A row as a sum of directions.
 struct Sum {
     row: Row,
-    sides: Vec<Side>,
+    sides: Vec<RowSide>,
 }
 
 impl Sum {
-    fn add(&mut self, pair: &Pair, Held { along, gap, size }: &Held, factor: f64) {
+    fn add(&mut self, pair: &EndPair, Held { along, gap, size }: &Held, factor: f64) {
         self.row.gap += factor * gap;
         self.row.size += factor.abs() * size;
         self.row.inertial += factor * along.inertial;
@@ -175,14 +175,14 @@ impl Sum {
             let (direction, lever) = (direction * factor, lever * factor);
             match self.sides.iter_mut().find(|side| side.body == body) {
                 Some(side) => (side.direction, side.lever) = (side.direction + direction, side.lever + lever),
-                None => self.sides.push(Side { body, direction, lever, force: DVec2::ZERO, torque: 0.0 }),
+                None => self.sides.push(RowSide { body, direction, lever, force: DVec2::ZERO, torque: 0.0 }),
             }
         }
     }
 }
 
 /// Both joints in the current state, each with its freedom.
-type Now<'a> = [(Pair, &'a dyn Law, Freedom); 2];
+type Now<'a> = [(EndPair, &'a dyn JointLaw, Freedom); 2];
 
 impl Coupling {
     /// The name and unit of the channel of its action.
@@ -337,7 +337,7 @@ impl Model for Coupling {
         Memory::of(&(self.row, self.force))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         (self.row, self.force) = recall(bytes)?;
         Ok(())
     }

@@ -3,17 +3,17 @@
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Freedom, Held, Law};
-use super::model::{self, Absent, Setup};
+use super::ends::EndPair;
+use super::joint_model::{self, Absent, Setup};
+use super::law::{Freedom, Held, JointLaw};
 use super::parts::Asked;
 use super::soft::Softness;
 use crate::forces::link::Partner;
-use crate::scene::units::{Force, Length, Position};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Force, Length, LengthPair};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A rod without mass: `anchor_a` of `a` and `anchor_b` of `b` stay at one distance.
 #[derive(Deserialize, JsonSchema)]
@@ -28,9 +28,9 @@ struct Distance {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
     /// anchor at the start.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// The distance in metres. Above zero. Default: that at the start.
     length: Option<Length>,
     /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
@@ -51,29 +51,25 @@ impl Entry for Distance {
     const NAME: &'static str = "Distance";
     const EXAMPLE: &'static str = "Distance(a: \"bar\", anchor_a: (0.5, 0), b: \"bob\", length: 0.5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        model::check_ends(&self.a, &self.b, outline, report);
+        joint_model::check_ends(&self.a, &self.b, outline, report);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);
         report.positive_if_given("length", self.length);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        model::install::<Self>(
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        joint_model::install::<Self>(
             app,
             outline,
-            entries.into_iter().map(|Written { value, .. }| Setup {
+            entries.into_iter().map(|WrittenEntry { value, .. }| Setup {
                 name: value.name,
                 partners: [value.a, value.b],
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 collide: value.collide,
                 assemble: value.assemble,
                 absent: Absent::Center,
@@ -99,12 +95,12 @@ pub struct Rod {
     pub length: Option<f64>,
 }
 
-impl Law for Rod {
-    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+impl JointLaw for Rod {
+    fn begun(&self, pair: &EndPair) -> Arc<dyn JointLaw> {
         Arc::new(Self { length: Some(self.length.unwrap_or(pair.between().length())) })
     }
 
-    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+    fn hold(&self, pair: &EndPair, held: &mut dyn FnMut(Held)) {
         let length = self.length.unwrap_or_default();
         held(Held { along: pair.stretch(), gap: pair.between().length() - length, size: pair.size() + length });
     }
@@ -113,7 +109,7 @@ impl Law for Rod {
         true
     }
 
-    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+    fn freedom(&self, pair: &EndPair) -> Option<Freedom> {
         Some(Freedom { along: pair.turn(), value: pair.b.angle - pair.a.angle })
     }
 }

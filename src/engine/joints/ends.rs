@@ -8,13 +8,13 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use crate::constraints::{Kind, Row, Side};
+use crate::constraints::{Row, RowKind, RowSide};
 use crate::tick::State;
 use crate::world::Bodies;
 
 /// Two ends as they are given, found again when bodies come or go.
 #[derive(Clone, Debug)]
-pub struct Ends {
+pub struct JointEnds {
     /// Keys of the bodies; `None`: the world.
     pub keys: [Option<u64>; 2],
     /// In the frame of the body from its centre of mass; in the world for the world. In metres.
@@ -27,7 +27,7 @@ pub struct Ends {
 
 /// An end in the present state.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct End {
+pub struct JointEnd {
     /// The index of its body; `None`: the world.
     pub body: Option<usize>,
     /// From the centre of mass of the body to the anchor, in metres.
@@ -46,7 +46,7 @@ pub struct End {
     pub prescribed: (DVec2, f64),
 }
 
-impl End {
+impl JointEnd {
     fn of(body: Option<usize>, anchor: DVec2, bodies: &Bodies) -> Self {
         let Some(body) = body else { return Self { position: anchor, axis: DVec2::X, ..Self::default() } };
         let (angle, spin) = (bodies.angle[body], bodies.spin[body]);
@@ -70,7 +70,7 @@ impl End {
     }
 }
 
-impl Ends {
+impl JointEnds {
     /// Ends at anchors of bodies with these keys, `None` for the world.
     pub fn new(keys: [Option<u64>; 2], anchors: [DVec2; 2]) -> Self {
         Self { keys, anchors, generation: 0, indices: None, severed: Arc::default() }
@@ -102,22 +102,22 @@ impl Ends {
     }
 
     /// Both ends in the present state; `None` if one of the bodies is gone or the joint has broken.
-    pub fn pair(&self, bodies: &Bodies) -> Option<Pair> {
+    pub fn pair(&self, bodies: &Bodies) -> Option<EndPair> {
         if self.is_severed() {
             return None;
         }
         let [a, b] = if self.generation == bodies.generation { self.indices } else { self.look_up(bodies) }?;
-        Some(Pair { a: End::of(a, self.anchors[0], bodies), b: End::of(b, self.anchors[1], bodies) })
+        Some(EndPair { a: JointEnd::of(a, self.anchors[0], bodies), b: JointEnd::of(b, self.anchors[1], bodies) })
     }
 }
 
 /// Both ends in the present state.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Pair {
+pub struct EndPair {
     /// End A.
-    pub a: End,
+    pub a: JointEnd,
     /// End B.
-    pub b: End,
+    pub b: JointEnd,
 }
 
 /// A direction of relative motion: how its rate depends on the velocity and the spin of each body.
@@ -129,7 +129,7 @@ pub struct Along {
     pub inertial: f64,
 }
 
-impl Pair {
+impl EndPair {
     /// From anchor A to anchor B in metres.
     pub fn between(&self) -> DVec2 {
         self.b.position - self.a.position
@@ -142,7 +142,7 @@ impl Pair {
 
     /// The size of the numbers from which gaps are found, in metres.
     pub fn size(&self) -> f64 {
-        let of = |end: &End| end.position.abs().max_element() + end.arm.abs().max_element();
+        let of = |end: &JointEnd| end.position.abs().max_element() + end.arm.abs().max_element();
         of(&self.a) + of(&self.b) + f64::MIN_POSITIVE
     }
 
@@ -181,15 +181,16 @@ impl Pair {
     }
 
     fn with_prescribed(&self, along: Along) -> Along {
-        let of =
-            |end: &End, (direction, lever): (DVec2, f64)| direction.dot(end.prescribed.0) + lever * end.prescribed.1;
+        let of = |end: &JointEnd, (direction, lever): (DVec2, f64)| {
+            direction.dot(end.prescribed.0) + lever * end.prescribed.1
+        };
         let [a, b] = along.sides;
         Along { inertial: along.inertial + of(&self.a, a) + of(&self.b, b), ..along }
     }
 
     /// The rate along a direction, in m/s or rad/s.
     pub fn rate(&self, along: &Along) -> f64 {
-        let of = |end: &End, (direction, lever): (DVec2, f64)| {
+        let of = |end: &JointEnd, (direction, lever): (DVec2, f64)| {
             let center = end.velocity - end.arm.perp() * end.spin;
             direction.dot(center) + lever * end.spin
         };
@@ -198,7 +199,7 @@ impl Pair {
 
     /// The sum of the speeds from which a rate is found, in m/s and rad/s.
     pub fn speeds(&self, along: &Along) -> f64 {
-        let of = |end: &End, (direction, lever): (DVec2, f64)| {
+        let of = |end: &JointEnd, (direction, lever): (DVec2, f64)| {
             let center = end.velocity - end.arm.perp() * end.spin;
             direction.length() * center.length() + (lever * end.spin).abs()
         };
@@ -242,9 +243,9 @@ impl Pair {
     }
 
     /// The row that holds a direction.
-    pub fn row(&self, along: &Along, kind: Kind) -> Row {
-        let side = |end: &End, (direction, lever): (DVec2, f64)| {
-            end.body.map(|body| Side { body, direction, lever, force: direction, torque: lever })
+    pub fn row(&self, along: &Along, kind: RowKind) -> Row {
+        let side = |end: &JointEnd, (direction, lever): (DVec2, f64)| {
+            end.body.map(|body| RowSide { body, direction, lever, force: direction, torque: lever })
         };
         let sides = [side(&self.a, along.sides[0]), side(&self.b, along.sides[1])];
         Row { sides, inertial: along.inertial, kind, ..Row::default() }

@@ -1,13 +1,13 @@
 //! A gear pair: the rate of the second hinge is `ratio` times that of the first.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::coupling::{self, Asked, Member};
-use super::model;
+use super::joint_model;
 use crate::scene::units::Scalar;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and
 /// no force: a ratio names no place for teeth. So the bearings bear no force of them.
@@ -27,12 +27,8 @@ impl Entry for GearPair {
     const NAME: &'static str = "GearPair";
     const EXAMPLE: &'static str = "GearPair(name: \"mesh\", of: (\"hip\", \"knee\"), ratio: -2)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -42,8 +38,8 @@ impl Entry for GearPair {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let couplings = entries.into_iter().map(|Written { value, .. }| Asked {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        let couplings = entries.into_iter().map(|WrittenEntry { value, .. }| Asked {
             name: value.name,
             of: value.of,
             ratio: value.ratio.si(),

@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use super::ends::{Along, Pair};
+use super::ends::{Along, EndPair};
 
 /// A direction that is held, and its deviation from the required value.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -25,12 +25,12 @@ pub struct Freedom {
 }
 
 /// The held directions and the freedom of a joint with two ends.
-pub trait Law: Send + Sync + 'static {
+pub trait JointLaw: Send + Sync + 'static {
     /// The same law, with its absent parameters taken from the ends at the start.
-    fn begun(&self, pair: &Pair) -> Arc<dyn Law>;
+    fn begun(&self, pair: &EndPair) -> Arc<dyn JointLaw>;
 
     /// Adds the held directions. Their number and order never change.
-    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held));
+    fn hold(&self, pair: &EndPair, held: &mut dyn FnMut(Held));
 
     /// Whether it cannot hold anchors that are in one place. Default: it can.
     fn needs_distance(&self) -> bool {
@@ -43,7 +43,7 @@ pub trait Law: Send + Sync + 'static {
     }
 
     /// The free motion, if there is exactly one. Default: there is not.
-    fn freedom(&self, _: &Pair) -> Option<Freedom> {
+    fn freedom(&self, _: &EndPair) -> Option<Freedom> {
         None
     }
 

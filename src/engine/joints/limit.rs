@@ -4,9 +4,9 @@
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use super::ends::Pair;
+use super::ends::EndPair;
 use super::law::Freedom;
-use crate::constraints::{Kind, Row};
+use crate::constraints::{Row, RowKind};
 use crate::tick::{Indicator, State};
 
 /// A share of its size within which a value is at the limit.
@@ -110,7 +110,7 @@ impl Limit {
     }
 
     /// The distance of the value from a limit, positive inside, and the numbers from which it follows.
-    fn room(&self, side: Side, pair: &Pair, freedom: &Freedom) -> (f64, f64) {
+    fn room(&self, side: Side, pair: &EndPair, freedom: &Freedom) -> (f64, f64) {
         let (bound, value) = (self.bound(side), freedom.value);
         let turns = freedom.along.sides.iter().all(|side| side.0 == DVec2::ZERO);
         let size = if turns { 1.0 } else { pair.size() };
@@ -118,7 +118,7 @@ impl Limit {
     }
 
     /// The distance of the joint beyond the limits, in rad or m.
-    pub fn beyond(&self, pair: &Pair, freedom: &Freedom) -> f64 {
+    pub fn beyond(&self, pair: &EndPair, freedom: &Freedom) -> f64 {
         let beyond = |side| {
             let (room, size) = self.room(side, pair, freedom);
             if room < -1e-9 * size { -room } else { 0.0 }
@@ -132,10 +132,10 @@ impl Limit {
     }
 
     /// The row that keeps the joint at its limit.
-    pub fn row(&self, pair: &Pair, freedom: &Freedom) -> Option<Row> {
+    pub fn row(&self, pair: &EndPair, freedom: &Freedom) -> Option<Row> {
         let side = self.at?;
         let (room, size) = self.room(side, pair, freedom);
-        Some(Row { gap: side.sign() * room, size, pushes: side.sign(), ..pair.row(&freedom.along, Kind::Position) })
+        Some(Row { gap: side.sign() * room, size, pushes: side.sign(), ..pair.row(&freedom.along, RowKind::Position) })
     }
 
     /// Takes the force of its row.
@@ -151,7 +151,7 @@ impl Limit {
 
     /// Before a step: takes or leaves a limit that the joint has reached. From tick to tick `press` is the push along
     /// the freedom.
-    pub fn begin_step(&mut self, pair: &Pair, freedom: &Freedom, press: Option<Press>) -> Option<Arrival> {
+    pub fn begin_step(&mut self, pair: &EndPair, freedom: &Freedom, press: Option<Press>) -> Option<Arrival> {
         let reached = self.reached.take();
         let left = self.left.take();
         let rate = pair.rate(&freedom.along);
@@ -169,7 +169,7 @@ impl Limit {
         let beyond = -self.room(side, pair, freedom).0;
         let ends = press.is_some_and(|press| press.ends(-side.sign(), back, beyond));
         if back > STAYS * self.fastest && !ends {
-            let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, Kind::Position) };
+            let row = Row { rate: side.sign() * back, ..pair.row(&freedom.along, RowKind::Position) };
             return Some(Arrival::Rebounds(Box::new(row)));
         }
         (self.at, self.force, self.greatest) = (Some(side), 0.0, 0.0);
@@ -177,7 +177,7 @@ impl Limit {
     }
 
     /// After a jump of velocities: leaves a limit from which the joint departs.
-    pub fn after_blow(&mut self, pair: &Pair, freedom: &Freedom) {
+    pub fn after_blow(&mut self, pair: &EndPair, freedom: &Freedom) {
         let away = self.at.map_or(0.0, |side| side.sign() * pair.rate(&freedom.along));
         if away > PULL * pair.speeds(&freedom.along) {
             self.leave();
@@ -198,14 +198,14 @@ impl Limit {
     }
 
     /// Adds the indicators of its mode: the way to each limit, or the force of the one that holds.
-    pub fn tell(&self, pair: &Pair, freedom: &Freedom, state: &State, told: &mut Vec<Indicator>) {
+    pub fn tell(&self, pair: &EndPair, freedom: &Freedom, state: &State, told: &mut Vec<Indicator>) {
         if self.at.is_some() {
             let rounding = PULL * self.greatest;
-            let row = pair.row(&freedom.along, Kind::Position);
+            let row = pair.row(&freedom.along, RowKind::Position);
             let bend = pair.bend_of_row(&row, 2.0 * self.greatest, state);
             return told.push(Indicator { value: self.force, slope: f64::NAN, bend, rounding, swings: 0.0 });
         }
-        let bend = pair.row(&freedom.along, Kind::Position).acceleration(state.bodies()).abs();
+        let bend = pair.row(&freedom.along, RowKind::Position).acceleration(state.bodies()).abs();
         let rate = pair.rate(&freedom.along);
         told.extend(self.sides().map(|side| {
             let (value, size) = self.room(side, pair, freedom);
@@ -227,12 +227,12 @@ impl Limit {
     }
 
     /// Corrects the mode after an evaluation.
-    pub fn settle(&mut self, pair: &Pair, freedom: &Freedom, state: &State) -> bool {
+    pub fn settle(&mut self, pair: &EndPair, freedom: &Freedom, state: &State) -> bool {
         if self.at.is_some() {
             return self.follow();
         }
         let rate = pair.rate(&freedom.along);
-        let row = pair.row(&freedom.along, Kind::Position);
+        let row = pair.row(&freedom.along, RowKind::Position);
         let acceleration = row.acceleration(state.bodies());
         // A limit that was left in this tick pushes away only by rounding.
         let rests = |side: &Side| {

@@ -7,9 +7,9 @@ mod coupling;
 mod distance;
 pub mod ends;
 mod gear_pair;
+mod joint_model;
 pub mod law;
 pub mod limit;
-mod model;
 mod modes;
 pub mod parts;
 mod prismatic;
@@ -26,9 +26,9 @@ use bevy_ecs::prelude::*;
 
 pub use coupling::Coupling;
 pub use distance::Rod;
-use ends::Ends;
-use law::Law;
-pub use model::Joint;
+use ends::JointEnds;
+pub use joint_model::Joint;
+use law::JointLaw;
 pub use prismatic::Slide;
 pub use revolute::Hinge;
 pub use rope::Cord;
@@ -60,9 +60,9 @@ pub struct KnownJoint {
     /// Its name.
     pub name: String,
     /// Its ends.
-    pub ends: Ends,
+    pub ends: JointEnds,
     /// Its law.
-    pub law: Arc<dyn Law>,
+    pub law: Arc<dyn JointLaw>,
     /// Whether it has limits.
     pub limited: bool,
 }

@@ -1,6 +1,6 @@
 //! The modes of joints as events: limits reached and left, friction that sticks and slips, joints that break.
 
-use super::model::Joint;
+use super::joint_model::Joint;
 use crate::tick::{Events, Indicator, State};
 
 impl Events for Joint {

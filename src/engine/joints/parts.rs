@@ -3,10 +3,10 @@
 use serde::{Deserialize, Serialize};
 
 use super::bounded::Bounded;
-use super::ends::Pair;
-use super::law::Law;
+use super::ends::EndPair;
+use super::law::JointLaw;
 use super::limit::{Arrival, Limit, Press};
-use crate::constraints::{Kind, Rows};
+use crate::constraints::{RowKind, Rows};
 use crate::scene::Diagnostics;
 use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, EvaluationMode, Indicator, State};
@@ -54,7 +54,7 @@ pub(super) fn check_friction<D: Dimension>(friction: Option<Quantity<D>>, report
 
 /// Limits, friction and breaking of a joint: their modes.
 #[derive(Clone, Debug, Default, Serialize, Deserialize)]
-pub struct Parts {
+pub struct JointParts {
     limit: Option<Limit>,
     friction: Option<Bounded>,
     break_force: Option<f64>,
@@ -64,7 +64,7 @@ pub struct Parts {
     rows: [usize; 2],
 }
 
-impl Parts {
+impl JointParts {
     pub(super) fn new(asked: &Asked) -> Self {
         Self {
             limit: asked.limits.map(|limits| Limit::new(limits, asked.restitution)),
@@ -92,20 +92,20 @@ impl Parts {
     }
 
     /// Before the first tick: friction against a motion.
-    pub fn start(&mut self, law: &dyn Law, pair: &Pair) {
+    pub fn start(&mut self, law: &dyn JointLaw, pair: &EndPair) {
         if let (Some(friction), Some(freedom)) = (&mut self.friction, law.freedom(pair)) {
             friction.choose(pair, &freedom.along);
         }
     }
 
     /// The distance of the joint beyond its limits, in rad or m.
-    pub fn beyond(&self, law: &dyn Law, pair: &Pair) -> f64 {
+    pub fn beyond(&self, law: &dyn JointLaw, pair: &EndPair) -> f64 {
         let freedom = law.freedom(pair);
         self.limit.as_ref().zip(freedom).map_or(0.0, |(limit, freedom)| limit.beyond(pair, &freedom))
     }
 
     /// Adds the rows of the limit and of friction, in this order.
-    pub fn add_rows(&mut self, law: &dyn Law, pair: &Pair, rows: &mut Rows) {
+    pub fn add_rows(&mut self, law: &dyn JointLaw, pair: &EndPair, rows: &mut Rows) {
         self.rows = [0, 0];
         let Some(freedom) = law.freedom(pair) else { return };
         let limit = self.limit.as_ref().and_then(|limit| limit.row(pair, &freedom));
@@ -130,7 +130,12 @@ impl Parts {
     }
 
     /// Adds the friction of a joint that slips. Returns its torque in N m, or force in N.
-    pub fn apply_forces(&mut self, law: &dyn Law, pair: &Pair, state: &mut State) -> Option<(super::ends::Along, f64)> {
+    pub fn apply_forces(
+        &mut self,
+        law: &dyn JointLaw,
+        pair: &EndPair,
+        state: &mut State,
+    ) -> Option<(super::ends::Along, f64)> {
         let amount = self.acting()?.given()?;
         let along = law.freedom(pair)?.along;
         let into = pair.push(&along, amount, state);
@@ -141,8 +146,8 @@ impl Parts {
         Some((along, amount))
     }
 
-    /// Before a step. Returns whether a mode has changed; [`Parts::broken`] shows whether the joint has broken.
-    pub fn begin_step(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &mut State) -> bool {
+    /// Before a step. Returns whether a mode has changed; [`JointParts::broken`] shows whether the joint has broken.
+    pub fn begin_step(&mut self, law: &dyn JointLaw, pair: &EndPair, force: f64, state: &mut State) -> bool {
         let now = state.span().begin;
         let located = state.evaluation().mode == EvaluationMode::Frozen;
         if !located && self.breaks(force, now) {
@@ -156,7 +161,7 @@ impl Parts {
             if lets_go && let Some(friction) = &mut self.friction {
                 friction.hold();
             }
-            let acceleration = || pair.row(&freedom.along, Kind::Position).acceleration(state.bodies());
+            let acceleration = || pair.row(&freedom.along, RowKind::Position).acceleration(state.bodies());
             let press = (!located).then(|| Press { acceleration: acceleration(), tick: state.span().length });
             match limit.begin_step(pair, &freedom, press) {
                 Some(Arrival::Stays) => state.strike(Blow::Stops),
@@ -177,7 +182,7 @@ impl Parts {
     }
 
     /// Velocities have jumped: friction may not suffice to hold them, and limits let go.
-    pub fn after_blow(&mut self, law: &dyn Law, pair: &Pair) {
+    pub fn after_blow(&mut self, law: &dyn JointLaw, pair: &EndPair) {
         if let (Some(limit), Some(freedom)) = (&mut self.limit, law.freedom(pair)) {
             limit.after_blow(pair, &freedom);
         }
@@ -195,7 +200,7 @@ impl Parts {
     }
 
     /// Adds the indicators of all modes, if the joint bears this force in N.
-    pub fn tell(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State, told: &mut Vec<Indicator>) {
+    pub fn tell(&mut self, law: &dyn JointLaw, pair: &EndPair, force: f64, state: &State, told: &mut Vec<Indicator>) {
         if let Some(most) = self.break_force {
             let bend = pair.bend(2.0 * most, state);
             let rounding = 1e-13 * most;
@@ -232,7 +237,7 @@ impl Parts {
     }
 
     /// Corrects modes after an evaluation.
-    pub fn settle(&mut self, law: &dyn Law, pair: &Pair, force: f64, state: &State) -> bool {
+    pub fn settle(&mut self, law: &dyn JointLaw, pair: &EndPair, force: f64, state: &State) -> bool {
         if self.breaks(force, state.evaluation().time) {
             return true;
         }

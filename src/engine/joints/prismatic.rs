@@ -5,18 +5,18 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Freedom, Held, Law};
-use super::model::{self, Absent, Setup};
+use super::ends::EndPair;
+use super::joint_model::{self, Absent, Setup};
+use super::law::{Freedom, Held, JointLaw};
 use super::parts::{self, Asked};
 use super::soft::Softness;
 use super::weld::hold_angle;
 use crate::forces::link::Partner;
-use crate::scene::units::{Force, Length, Position, Scalar};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Force, Length, LengthPair, Scalar};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`. Body `b` does not turn against
 /// `a`. Its travel counts from `anchor_a` along the line.
@@ -31,12 +31,12 @@ struct Prismatic {
     b: Partner,
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b`, likewise. If both anchors are absent, it is the centre of mass of `b`. Default: the place of the
     /// other anchor at the start.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// Direction of the line in the frame of `a`. Its length is not zero.
-    axis: Position,
+    axis: LengthPair,
     /// Least and greatest travel of `b` along the line, in metres or with a unit. Default: none.
     limits: Option<(Length, Length)>,
     /// The share of its speed with which it comes back from a limit, 0 to 1. With 0 it stays there. Default: 0.
@@ -62,16 +62,12 @@ impl Entry for Prismatic {
     const NAME: &'static str = "Prismatic";
     const EXAMPLE: &'static str = "Prismatic(name: \"piston\", a: World, b: \"box\", axis: (1, 0))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        model::check_ends(&self.a, &self.b, outline, report);
+        joint_model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
         parts::check_restitution(self.restitution, self.limits.is_some(), report);
         parts::check_friction(self.friction, report);
@@ -84,14 +80,14 @@ impl Entry for Prismatic {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        model::install::<Self>(
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        joint_model::install::<Self>(
             app,
             outline,
-            entries.into_iter().map(|Written { value, .. }| Setup {
+            entries.into_iter().map(|WrittenEntry { value, .. }| Setup {
                 name: value.name,
                 partners: [value.a, value.b],
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 collide: value.collide,
                 assemble: value.assemble,
                 absent: Absent::Stands,
@@ -121,18 +117,18 @@ pub struct Slide {
     pub angle: Option<f64>,
 }
 
-impl Law for Slide {
-    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+impl JointLaw for Slide {
+    fn begun(&self, pair: &EndPair) -> Arc<dyn JointLaw> {
         Arc::new(Self { angle: Some(self.angle.unwrap_or(pair.b.angle - pair.a.angle)), ..*self })
     }
 
-    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+    fn hold(&self, pair: &EndPair, held: &mut dyn FnMut(Held)) {
         let across = pair.a.axis.rotate(self.axis).perp();
         held(Held { along: pair.across(across), gap: pair.between().dot(across), size: pair.size() });
         hold_angle(pair, self.angle.unwrap_or_default(), held);
     }
 
-    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+    fn freedom(&self, pair: &EndPair) -> Option<Freedom> {
         let axis = pair.a.axis.rotate(self.axis);
         Some(Freedom { along: pair.across(axis), value: pair.between().dot(axis) })
     }

@@ -1,13 +1,13 @@
 //! A rack: the travel of a slide is `radius` times the angle of a hinge.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::coupling::{self, Asked, Member};
-use super::model;
+use super::joint_model;
 use crate::scene::units::Length;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A pinion and a rack. The travel of the second joint, a slide, is `radius` times the angle of the first, a hinge,
 /// without play. The teeth push along the slide at the pitch point, which lies `radius` from the pin. The bearings bear
@@ -28,12 +28,8 @@ impl Entry for Rack {
     const NAME: &'static str = "Rack";
     const EXAMPLE: &'static str = "Rack(name: \"mesh\", of: (\"pinion\", \"slide\"), radius: 0.1)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -43,8 +39,8 @@ impl Entry for Rack {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        let couplings = entries.into_iter().map(|Written { value, .. }| Asked {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        let couplings = entries.into_iter().map(|WrittenEntry { value, .. }| Asked {
             name: value.name,
             of: value.of,
             ratio: value.radius.si(),

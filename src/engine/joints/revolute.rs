@@ -4,17 +4,17 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Freedom, Held, Law};
-use super::model::{self, Absent, Setup};
+use super::ends::EndPair;
+use super::joint_model::{self, Absent, Setup};
+use super::law::{Freedom, Held, JointLaw};
 use super::parts::{self, Asked};
 use super::soft::Softness;
 use crate::forces::link::Partner;
-use crate::scene::units::{Angle, Force, Position, Scalar, Torque};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Angle, Force, LengthPair, Scalar, Torque};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A hinge: `anchor_a` of `a` and `anchor_b` of `b` coincide, and the bodies turn about them. Its angle is that of `b`
 /// minus that of `a`, counter-clockwise, over full turns.
@@ -30,9 +30,9 @@ struct Revolute {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
     /// anchor at the start.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// Least and greatest angle of `b` relative to `a`, in radians or with a unit such as "90 deg". Default: none.
     limits: Option<(Angle, Angle)>,
     /// The share of its speed with which it comes back from a limit, 0 to 1. With 0 it stays there. Default: 0.
@@ -60,16 +60,12 @@ impl Entry for Revolute {
     const EXAMPLE: &'static str =
         "Revolute(name: \"hip\", a: World, anchor_a: (0, 2), b: \"bar\", anchor_b: (-0.5, 0))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        model::check_ends(&self.a, &self.b, outline, report);
+        joint_model::check_ends(&self.a, &self.b, outline, report);
         parts::check_limits(self.limits.as_ref(), report);
         parts::check_restitution(self.restitution, self.limits.is_some(), report);
         parts::check_friction(self.friction, report);
@@ -77,14 +73,14 @@ impl Entry for Revolute {
         Softness::check(self.softness, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        model::install::<Self>(
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        joint_model::install::<Self>(
             app,
             outline,
-            entries.into_iter().map(|Written { value, .. }| Setup {
+            entries.into_iter().map(|WrittenEntry { value, .. }| Setup {
                 name: value.name,
                 partners: [value.a, value.b],
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 collide: value.collide,
                 assemble: value.assemble,
                 absent: Absent::Center,
@@ -110,23 +106,23 @@ pub(super) fn plugin(app: &mut App) {
 pub struct Hinge;
 
 /// Holds both anchors in one place.
-pub(super) fn hold_point(pair: &Pair, held: &mut dyn FnMut(Held)) {
+pub(super) fn hold_point(pair: &EndPair, held: &mut dyn FnMut(Held)) {
     let (between, size) = (pair.between(), pair.size());
     for direction in [DVec2::X, DVec2::Y] {
         held(Held { along: pair.point(direction), gap: between.dot(direction), size });
     }
 }
 
-impl Law for Hinge {
-    fn begun(&self, _: &Pair) -> Arc<dyn Law> {
+impl JointLaw for Hinge {
+    fn begun(&self, _: &EndPair) -> Arc<dyn JointLaw> {
         Arc::new(*self)
     }
 
-    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+    fn hold(&self, pair: &EndPair, held: &mut dyn FnMut(Held)) {
         hold_point(pair, held);
     }
 
-    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+    fn freedom(&self, pair: &EndPair) -> Option<Freedom> {
         Some(Freedom { along: pair.turn(), value: pair.b.angle - pair.a.angle })
     }
 }

@@ -5,16 +5,16 @@ use std::sync::Arc;
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Freedom, Held, Law};
-use super::model::{self, Absent, Setup};
+use super::ends::EndPair;
+use super::joint_model::{self, Absent, Setup};
+use super::law::{Freedom, Held, JointLaw};
 use super::parts::Asked;
 use crate::forces::link::Partner;
-use crate::scene::units::{Force, Length, Position, Scalar};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Force, Length, LengthPair, Scalar};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A rope without mass: `anchor_a` of `a` and `anchor_b` of `b` are at most its length apart. A rope has no `softness`.
 #[derive(Deserialize, JsonSchema)]
@@ -29,9 +29,9 @@ struct Rope {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the centre of mass, and with `World` the place of the other
     /// anchor at the start.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b`, likewise. Default: as that of `anchor_a`.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// Its length in metres. Above zero. Default: the distance at the start.
     length: Option<Length>,
     /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. With 0 it stays taut. Default: 0.
@@ -49,29 +49,25 @@ impl Entry for Rope {
     const NAME: &'static str = "Rope";
     const EXAMPLE: &'static str = "Rope(a: \"bar\", b: \"bob\", length: 2)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        model::check_ends(&self.a, &self.b, outline, report);
+        joint_model::check_ends(&self.a, &self.b, outline, report);
         report.between("restitution", self.restitution, 0.0, 1.0);
         report.positive_if_given("break_force", self.break_force);
         report.positive_if_given("length", self.length);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        model::install::<Self>(
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        joint_model::install::<Self>(
             app,
             outline,
-            entries.into_iter().map(|Written { value, .. }| Setup {
+            entries.into_iter().map(|WrittenEntry { value, .. }| Setup {
                 name: value.name,
                 partners: [value.a, value.b],
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 collide: value.collide,
                 assemble: false,
                 absent: Absent::Center,
@@ -97,18 +93,18 @@ pub struct Cord {
     pub length: Option<f64>,
 }
 
-impl Law for Cord {
-    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+impl JointLaw for Cord {
+    fn begun(&self, pair: &EndPair) -> Arc<dyn JointLaw> {
         Arc::new(Self { length: Some(self.length.unwrap_or(pair.between().length())) })
     }
 
-    fn hold(&self, _: &Pair, _: &mut dyn FnMut(Held)) {}
+    fn hold(&self, _: &EndPair, _: &mut dyn FnMut(Held)) {}
 
     fn limits(&self) -> Option<[f64; 2]> {
         self.length.map(|length| [f64::NEG_INFINITY, length])
     }
 
-    fn freedom(&self, pair: &Pair) -> Option<Freedom> {
+    fn freedom(&self, pair: &EndPair) -> Option<Freedom> {
         let value = pair.between().length();
         Some(Freedom { along: if value > 0.0 { pair.stretch() } else { pair.point(DVec2::X) }, value })
     }

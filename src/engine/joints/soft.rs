@@ -9,9 +9,9 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Held, Law};
-use crate::constraints::Kind;
+use super::ends::EndPair;
+use super::law::{Held, JointLaw};
+use crate::constraints::RowKind;
 use crate::scene::Diagnostics;
 use crate::scene::units::{Rate, Scalar};
 use crate::tick::{State, SteadySpring, critical_step};
@@ -46,11 +46,11 @@ pub struct Soft {
 
 impl Soft {
     /// Springs that swing at a frequency in Hz with a damping ratio, for the current poses of the bodies.
-    pub fn new([frequency, ratio]: [f64; 2], law: &dyn Law, pair: &Pair, bodies: &Bodies) -> Self {
+    pub fn new([frequency, ratio]: [f64; 2], law: &dyn JointLaw, pair: &EndPair, bodies: &Bodies) -> Self {
         let angular = std::f64::consts::TAU * frequency;
         let mut responses = Vec::new();
         law.hold(pair, &mut |held: Held| {
-            let row = pair.row(&held.along, Kind::Position);
+            let row = pair.row(&held.along, RowKind::Position);
             responses.push((turns(&held), row.response(&row, bodies)));
         });
         let of_kind = |(turns, _): &(bool, f64)| {
@@ -62,7 +62,7 @@ impl Soft {
     }
 
     /// Shows each direction that is held with its stiffness and its damping.
-    fn each(&self, law: &dyn Law, pair: &Pair, mut see: impl FnMut(Held, f64, f64)) {
+    fn each(&self, law: &dyn JointLaw, pair: &EndPair, mut see: impl FnMut(Held, f64, f64)) {
         let mut springs = self.springs.iter();
         law.hold(pair, &mut |mut held| {
             if let Some(&(stiffness, damping)) = springs.next() {
@@ -76,7 +76,7 @@ impl Soft {
     }
 
     /// Energy in J of its springs.
-    pub fn energy(&self, law: &dyn Law, pair: &Pair) -> f64 {
+    pub fn energy(&self, law: &dyn JointLaw, pair: &EndPair) -> f64 {
         let mut sum = 0.0;
         self.each(law, pair, |held, stiffness, _| sum += 0.5 * stiffness * held.gap * held.gap);
         sum
@@ -88,8 +88,9 @@ impl Soft {
     }
 
     /// Adds its springs to a list.
-    pub fn stiffness(&self, law: &dyn Law, pair: &Pair, bodies: &Bodies, list: &mut Vec<SteadySpring>) {
-        let side = |end: &super::ends::End| end.body.filter(|body| bodies.dynamic[*body]).map(|body| (body, end.arm));
+    pub fn stiffness(&self, law: &dyn JointLaw, pair: &EndPair, bodies: &Bodies, list: &mut Vec<SteadySpring>) {
+        let side =
+            |end: &super::ends::JointEnd| end.body.filter(|body| bodies.dynamic[*body]).map(|body| (body, end.arm));
         let (a, b) = match (side(&pair.a), side(&pair.b)) {
             (a, Some(b)) => (a, b),
             (Some(a), None) => (None, a),
@@ -112,7 +113,7 @@ impl Soft {
     }
 
     /// Adds its forces. Returns force in N and torque about the anchor in N m on body B.
-    pub fn push(&mut self, law: &dyn Law, pair: &Pair, state: &mut State) -> (DVec2, f64) {
+    pub fn push(&mut self, law: &dyn JointLaw, pair: &EndPair, state: &mut State) -> (DVec2, f64) {
         let (mut power, mut reaction) = (0.0, (DVec2::ZERO, 0.0));
         self.each(law, pair, |held, stiffness, damping| {
             let rate = pair.rate(&held.along);

@@ -4,18 +4,18 @@
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use super::ends::Pair;
-use super::law::{Held, Law};
-use super::model::{self, Absent, Setup};
+use super::ends::EndPair;
+use super::joint_model::{self, Absent, Setup};
+use super::law::{Held, JointLaw};
 use super::parts::Asked;
 use super::revolute::hold_point;
 use super::soft::Softness;
 use crate::forces::link::Partner;
-use crate::scene::units::{Force, Position};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Force, LengthPair};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A weld, which holds two bodies in their relative pose at the start.
 #[derive(Deserialize, JsonSchema)]
@@ -29,10 +29,10 @@ struct Weld {
     b: Partner,
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
-    anchor_a: Option<Position>,
+    anchor_a: Option<LengthPair>,
     /// The anchor on `b`, likewise. If both anchors are absent, it is the centre of mass of `b`. Default: the place of the
     /// other anchor at the start.
-    anchor_b: Option<Position>,
+    anchor_b: Option<LengthPair>,
     /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// The frequency in Hz and the damping ratio with which it swings as a spring. The frequency is that of the mean of
@@ -52,28 +52,24 @@ impl Entry for Weld {
     const NAME: &'static str = "Weld";
     const EXAMPLE: &'static str = "Weld(a: \"box\", b: \"bar\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        model::declare(self.name.as_deref(), outline);
+        joint_model::declare(self.name.as_deref(), outline);
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        model::check_ends(&self.a, &self.b, outline, report);
+        joint_model::check_ends(&self.a, &self.b, outline, report);
         report.positive_if_given("break_force", self.break_force);
         Softness::check(self.softness, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        model::install::<Self>(
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        joint_model::install::<Self>(
             app,
             outline,
-            entries.into_iter().map(|Written { value, .. }| Setup {
+            entries.into_iter().map(|WrittenEntry { value, .. }| Setup {
                 name: value.name,
                 partners: [value.a, value.b],
-                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(Position::si)),
+                anchors: [value.anchor_a, value.anchor_b].map(|anchor| anchor.map(LengthPair::si)),
                 collide: value.collide,
                 assemble: value.assemble,
                 absent: Absent::Stands,
@@ -100,17 +96,17 @@ pub struct Fixed {
 }
 
 /// Holds the angle of B relative to A.
-pub(super) fn hold_angle(pair: &Pair, angle: f64, held: &mut dyn FnMut(Held)) {
+pub(super) fn hold_angle(pair: &EndPair, angle: f64, held: &mut dyn FnMut(Held)) {
     let size = pair.a.angle.abs() + pair.b.angle.abs() + 1.0;
     held(Held { along: pair.turn(), gap: pair.b.angle - pair.a.angle - angle, size });
 }
 
-impl Law for Fixed {
-    fn begun(&self, pair: &Pair) -> Arc<dyn Law> {
+impl JointLaw for Fixed {
+    fn begun(&self, pair: &EndPair) -> Arc<dyn JointLaw> {
         Arc::new(Self { angle: Some(self.angle.unwrap_or(pair.b.angle - pair.a.angle)) })
     }
 
-    fn hold(&self, pair: &Pair, held: &mut dyn FnMut(Held)) {
+    fn hold(&self, pair: &EndPair, held: &mut dyn FnMut(Held)) {
         hold_point(pair, held);
         hold_angle(pair, self.angle.unwrap_or_default(), held);
     }

@@ -12,7 +12,7 @@
 //! use jostle::scene::units::Speed;
 //! use jostle::scene::{Outline, Diagnostics, SceneAppExt, Section, Source, load};
 //!
-//! #[derive(serde::Deserialize)]
+//! #[derive(serde::Deserialize, schemars::JsonSchema)]
 //! #[serde(deny_unknown_fields)]
 //! struct WindSection {
 //!     /// From the left, in m/s.
@@ -56,7 +56,7 @@ use bevy_ecs::world::World;
 pub use jostle_language::*;
 pub use registry::{SceneAppExt, SceneRegistry};
 pub(crate) use registry::{install_word, register_embedding};
-pub use section::{Entry, Section, Written};
+pub use section::{Entry, Section, WrittenEntry};
 
 /// Reads a scene and installs its sections.
 ///

@@ -8,7 +8,7 @@ use jostle_language::explain::{self, Fault};
 use jostle_language::{Described, ReadEntries, ReadSection, Registry};
 
 use super::embed::Embedding;
-use super::section::{Entry, Section, Written};
+use super::section::{Entry, Section, WrittenEntry};
 use super::{Arity, Diagnostics, Outline};
 
 /// The names of the scene language and their readers. Plugins fill it through [`SceneAppExt`] before a scene is loaded.
@@ -45,12 +45,12 @@ impl<S: Section> ReadSection<App> for Whole<S> {
     }
 }
 
-struct Entries<E>(Vec<Written<E>>);
+struct Entries<E>(Vec<WrittenEntry<E>>);
 
 impl<E: Entry> ReadEntries<App> for Entries<E> {
     fn push(&mut self, text: &str, bracket: usize) -> Result<usize, Fault> {
         let value = explain::read(&text[bracket..]).map_err(|fault| fault.behind(bracket))?;
-        self.0.push(Written { value, text: text.to_owned() });
+        self.0.push(WrittenEntry { value, text: text.to_owned() });
         Ok(self.0.len() - 1)
     }
 
@@ -120,7 +120,11 @@ fn registry(app: &mut App) -> &mut SceneRegistry {
 
 impl SceneAppExt for App {
     fn register_section<S: Section>(&mut self) -> &mut Self {
-        let of = Described { example: S::EXAMPLE, schema: S::schema, path: std::any::type_name::<S>() };
+        let of = Described {
+            example: S::EXAMPLE,
+            schema: |generator| generator.subschema_for::<S>(),
+            path: std::any::type_name::<S>(),
+        };
         registry(self).add_section(S::NAME, |text| Ok(Box::new(Whole(explain::read::<S>(text)?))), of);
         self
     }
@@ -136,7 +140,11 @@ impl SceneAppExt for App {
     }
 
     fn register_entry<E: Entry>(&mut self) -> &mut Self {
-        let of = Described { example: E::EXAMPLE, schema: E::schema, path: std::any::type_name::<E>() };
+        let of = Described {
+            example: E::EXAMPLE,
+            schema: |generator| generator.subschema_for::<E>(),
+            path: std::any::type_name::<E>(),
+        };
         registry(self).add_entry(E::SECTION, E::NAME, || Box::new(Entries::<E>(Vec::new())), of);
         self
     }

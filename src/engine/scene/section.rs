@@ -2,7 +2,7 @@
 //! section that takes several kinds (`forces: [Drag(..)]`, `contacts: Penalty(..)`).
 
 use bevy_app::App;
-use schemars::{Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::{Diagnostics, Outline};
@@ -12,18 +12,12 @@ use super::{Diagnostics, Outline};
 /// The type determines the form of the value. A struct with named fields is `(a: 1, b: 2)`, and a newtype of a `Vec` is
 /// `[..]`. Give every struct and enum in it `#[serde(deny_unknown_fields)]`, and use the quantities of
 /// [`units`](super::units) for numbers with units. Do not use `flatten` or `untagged`, because they lose places and
-/// words.
-pub trait Section: DeserializeOwned + Send + Sync + 'static {
+/// words. Its `JsonSchema` gives `jostle schema` and the manual their fields. Doc comments are the meanings.
+pub trait Section: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// The name in scenes.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
-
-    /// Its possible content, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]` on the type it
-    /// is `Some(generator.subschema_for::<Self>())`. Default: none, and the manual shows no fields.
-    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
-        None
-    }
 
     /// Tells the outline which names (bodies, walls, materials ...) this section brings. Sections declare in the order
     /// of the file. Paths are relative to the section.
@@ -38,19 +32,13 @@ pub trait Section: DeserializeOwned + Send + Sync + 'static {
 }
 
 /// One kind of entry of a section that takes several kinds.
-pub trait Entry: DeserializeOwned + Send + Sync + 'static {
+pub trait Entry: DeserializeOwned + JsonSchema + Send + Sync + 'static {
     /// Its section, for example `"forces"`.
     const SECTION: &'static str;
     /// Its leading name, for example `"Drag"`. The type reads the content of the brackets after it.
     const NAME: &'static str;
     /// One correct use, shown in error messages and in the manual.
     const EXAMPLE: &'static str;
-
-    /// The possible content of its brackets, for `jostle schema` and the manual. With `#[derive(schemars::JsonSchema)]`
-    /// on the type it is `Some(generator.subschema_for::<Self>())`. Default: none, and the manual shows no fields.
-    fn schema(_generator: &mut SchemaGenerator) -> Option<Schema> {
-        None
-    }
 
     /// Tells the outline which names this entry brings.
     fn declare(&self, _outline: &mut Outline) {}
@@ -60,11 +48,11 @@ pub trait Entry: DeserializeOwned + Send + Sync + 'static {
 
     /// Installs all entries of this kind at once, in the order of the file. `texts` are the entries as they were
     /// written. Called only when nothing was reported.
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App);
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App);
 }
 
 /// An entry together with its text in the scene.
-pub struct Written<T> {
+pub struct WrittenEntry<T> {
     /// The entry.
     pub value: T,
     /// Its text in the file, without comments at both ends.

@@ -6,11 +6,11 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, Intangible, PackedWall};
@@ -42,25 +42,21 @@ impl Entry for Clearance {
     const NAME: &'static str = "Clearance";
     const EXAMPLE: &'static str = "Clearance(name: \"gap\", a: \"ball\", b: \"floor\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require_any(&[Kind::BODY], &self.a, "a", report);
-        outline.require_any(&[Kind::BODY, Kind::WALL], &self.b, "b", report);
+        outline.require_any(&[NameKind::BODY], &self.a, "a", report);
+        outline.require_any(&[NameKind::BODY, NameKind::WALL], &self.b, "b", report);
         if self.a == self.b {
             report.error("b", format!("`{}` has no distance from itself", self.b)).help("name another body, or a wall");
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, a, b }, .. } in entries {
+        for WrittenEntry { value: Self { name, a, b }, .. } in entries {
             let other = body_named(world, &b).or_else(|| wall_named(world, &b));
             let Some((a, b)) = body_named(world, &a).zip(other) else { continue };
             world.get_resource_or_init::<Asked>().0.push((name.clone(), a, b));

@@ -4,11 +4,11 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::{State, index_of};
 
 const QUANTITIES: &[&str] = &["force.x", "force.y"];
@@ -27,15 +27,11 @@ impl Entry for ContactForce {
     const NAME: &'static str = "ContactForce";
     const EXAMPLE: &'static str = "ContactForce(on: \"floor\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require_any(&[Kind::WALL, Kind::BODY], &self.on, "on", report);
+        outline.require_any(&[NameKind::WALL, NameKind::BODY], &self.on, "on", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         let names = entries.iter().flat_map(|entry| QUANTITIES.iter().map(|q| format!("{}.{q}", entry.value.on)));
         add_found(app.world_mut(), names);
     }

@@ -5,14 +5,14 @@ use std::collections::BTreeSet;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::add_packed_observer;
 use crate::tick::kept::SnapshotAppExt;
 
@@ -36,11 +36,11 @@ struct Begun(Vec<(Entity, u64)>);
 pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Diagnostics) -> Vec<String> {
     let mut owners: Vec<String> = Vec::new();
     for (pattern, path) in names.with_paths(field) {
-        let bodies = outline.matching(Kind::BODY, pattern);
-        if bodies.is_empty() && outline.require_any(&[Kind::WALL, Kind::BODY], pattern, &path, report) {
+        let bodies = outline.matching(NameKind::BODY, pattern);
+        if bodies.is_empty() && outline.require_any(&[NameKind::WALL, NameKind::BODY], pattern, &path, report) {
             owners.push(pattern.clone());
         }
-        owners.extend(bodies.into_iter().map(|index| outline.names(Kind::BODY)[index].clone()));
+        owners.extend(bodies.into_iter().map(|index| outline.names(NameKind::BODY)[index].clone()));
     }
     let mut known = BTreeSet::new();
     owners.retain(|owner| known.insert(owner.clone()));
@@ -57,15 +57,11 @@ impl Entry for Contacts {
     const NAME: &'static str = "Contacts";
     const EXAMPLE: &'static str = "Contacts(of: \"ball\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         owners(&self.of, "of", outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
             let owners = owners(&entry.value.of, "of", outline, &mut Diagnostics::new());
             let names = owners.iter().flat_map(|owner| QUANTITIES.iter().map(move |q| format!("{owner}.{q}")));

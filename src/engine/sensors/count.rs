@@ -2,13 +2,13 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::sections::Region;
@@ -37,21 +37,17 @@ impl Entry for Count {
     const NAME: &'static str = "Count";
     const EXAMPLE: &'static str = "Count(name: \"bin\", of: \"grain_*\", within: ((0, 0), (1, 1)))";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         group::check(&self.of, self.within.as_ref(), outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, within }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, within }, .. } in entries {
             let group = Group::new(&of, within, outline, world);
             world.get_resource_or_init::<Asked>().0.push((name.clone(), group));
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));

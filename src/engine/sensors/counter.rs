@@ -5,7 +5,7 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
@@ -13,9 +13,9 @@ use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, body_named, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
-use crate::scene::units::Position;
+use crate::scene::units::LengthPair;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{add_looker, add_packed_observer};
 
@@ -35,7 +35,7 @@ struct Counter {
     /// `gate`.
     touching: Option<Names>,
     /// The two ends of a gate, in m. Write this or `touching`. Default: from `touching`.
-    gate: Option<(Position, Position)>,
+    gate: Option<(LengthPair, LengthPair)>,
 }
 
 /// The events that a counter counts.
@@ -67,16 +67,12 @@ impl Entry for Counter {
     const NAME: &'static str = "Counter";
     const EXAMPLE: &'static str = "Counter(name: \"hits\", of: \"ball\", touching: \"pin_*\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         if let Some(touching) = &self.touching {
             owners(touching, "touching", outline, report);
         }
@@ -95,12 +91,12 @@ impl Entry for Counter {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, touching, gate }, .. } in entries {
-            let indices = of.matching(Kind::BODY, outline).into_iter();
+        for WrittenEntry { value: Self { name, of, touching, gate }, .. } in entries {
+            let indices = of.matching(NameKind::BODY, outline).into_iter();
             let bodies: Vec<Entity> =
-                indices.filter_map(|index| body_named(world, &outline.names(Kind::BODY)[index])).collect();
+                indices.filter_map(|index| body_named(world, &outline.names(NameKind::BODY)[index])).collect();
             let looked = match (touching, gate) {
                 (_, Some(ends)) => Looked::Gate(Gate::new(ends, bodies)),
                 (touching, None) => {

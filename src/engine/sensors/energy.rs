@@ -3,11 +3,11 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::energy::EnergyLedger;
 
@@ -35,11 +35,7 @@ impl Entry for Energy {
     const NAME: &'static str = "Energy";
     const EXAMPLE: &'static str = "Energy()";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         let models = app.world().resource::<State>().models();
         let accounts: Vec<_> = models.filter_map(|model| Some(format!("energy.{}", model.loss()?.account))).collect();
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()).chain(accounts));

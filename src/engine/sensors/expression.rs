@@ -9,11 +9,11 @@ use std::sync::Mutex;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, find, missing};
-use crate::scene::{Diagnostics, Entry, Formula, Kind, Mistake, Outline, SceneAppExt, SceneError, Written};
+use crate::scene::{Diagnostics, Entry, Formula, Mistake, NameKind, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
 
@@ -58,12 +58,8 @@ impl Entry for Expression {
     const NAME: &'static str = "Expression";
     const EXAMPLE: &'static str = "Expression(name: \"gap\", of: \"a.position.x - b.position.x\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -82,11 +78,14 @@ impl Entry for Expression {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        let asked = entries.into_iter().zip(mentions).map(|(Written { value: Self { name, of }, .. }, mention)| {
-            Asked { name, text: of, path: format!("{}.of", mention.path) }
-        });
+        let asked =
+            entries.into_iter().zip(mentions).map(|(WrittenEntry { value: Self { name, of }, .. }, mention)| Asked {
+                name,
+                text: of,
+                path: format!("{}.of", mention.path),
+            });
         let words = outline.words(super::QUANTITIES).map(|(word, _)| word).collect();
         app.insert_resource(Expressions { list: asked.collect(), open: Vec::new(), words });
         // By then all channels are there that one may name.

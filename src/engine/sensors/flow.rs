@@ -8,14 +8,14 @@ use std::collections::VecDeque;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate};
 use super::{Channel, SensorAppExt, add_found, bodies_named};
-use crate::scene::units::{Position, Time};
+use crate::scene::units::{LengthPair, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{Clock, State, add_looker};
 
@@ -32,7 +32,7 @@ struct Flow {
     /// The bodies. `*` stands for any letters.
     of: Names,
     /// The two ends of the gate, in m.
-    gate: (Position, Position),
+    gate: (LengthPair, LengthPair),
     /// The passages that count, with their signs. Default: `Net`.
     #[serde(default)]
     direction: Direction,
@@ -120,23 +120,19 @@ impl Entry for Flow {
     const NAME: &'static str = "Flow";
     const EXAMPLE: &'static str = "Flow(name: \"out\", of: \"grain_*\", gate: ((0.1, 0), (-0.1, 0)), window: 0.5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
         gate::check(self.gate, report);
         report.positive("window", self.window);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, gate, direction, window }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, gate, direction, window }, .. } in entries {
             if !world.contains_resource::<Asked>() {
                 world.init_resource::<Asked>();
                 world.init_resource::<Seen>();

@@ -3,12 +3,12 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named, known};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::{ForcePart, State, index_of};
 
 /// The parts of the force on a body that a sensor can measure.
@@ -66,18 +66,15 @@ impl Entry for Force {
     const NAME: &'static str = "Force";
     const EXAMPLE: &'static str = "Force(of: \"ball\", part: Joint)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
-        for Written { value: Self { of, part }, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
+        for WrittenEntry { value: Self { of, part }, .. } in entries {
             let quantity = PARTS.iter().find(|(known, _)| *known == part).map_or("", |(_, name)| name);
-            let names = of.matching(Kind::BODY, outline).into_iter().map(|body| &outline.names(Kind::BODY)[body]);
+            let names =
+                of.matching(NameKind::BODY, outline).into_iter().map(|body| &outline.names(NameKind::BODY)[body]);
             let channels = names.flat_map(|name| ["x", "y"].map(|axis| format!("{name}.{quantity}.{axis}")));
             add_found(app.world_mut(), channels);
         }

@@ -7,7 +7,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::scene::Diagnostics;
-use crate::scene::units::Position;
+use crate::scene::units::LengthPair;
 use crate::tick::{State, index_of};
 
 /// A gate, and the bodies that are watched.
@@ -27,7 +27,7 @@ pub(super) struct Passage {
 }
 
 /// Reports ends that make no gate.
-pub(super) fn check(ends: (Position, Position), report: &mut Diagnostics) {
+pub(super) fn check(ends: (LengthPair, LengthPair), report: &mut Diagnostics) {
     let (from, to) = (ends.0.si(), ends.1.si());
     let finite = report.finite_pair("gate", from) && report.finite_pair("gate", to);
     if finite && from == to {
@@ -38,7 +38,7 @@ pub(super) fn check(ends: (Position, Position), report: &mut Diagnostics) {
 
 impl Gate {
     /// A gate between two places for some bodies.
-    pub fn new((from, to): (Position, Position), of: Vec<Entity>) -> Self {
+    pub fn new((from, to): (LengthPair, LengthPair), of: Vec<Entity>) -> Self {
         Self { from: from.si(), to: to.si(), of }
     }
 

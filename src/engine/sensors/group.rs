@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 
 use super::bodies_named;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Kind, Outline};
+use crate::scene::{Diagnostics, NameKind, Outline};
 use crate::tick::{State, index_of};
 use crate::world::sections::Region;
 
@@ -16,7 +16,7 @@ pub(super) struct Group {
 
 /// Reports names that fit no body, and a malformed region.
 pub(super) fn check(of: &Names, within: Option<&Region>, outline: &Outline, report: &mut Diagnostics) {
-    of.require(Kind::BODY, outline, "of", report);
+    of.require(NameKind::BODY, outline, "of", report);
     if let Some(within) = within {
         report.within("within", |report| within.check(report));
     }

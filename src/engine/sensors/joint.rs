@@ -5,13 +5,13 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::joints::{self, Coupling};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "force", "drift"];
@@ -32,18 +32,14 @@ impl Entry for Joint {
     const NAME: &'static str = "Joint";
     const EXAMPLE: &'static str = "Joint(of: \"hip\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::JOINT, outline, "of", report);
+        self.of.require(NameKind::JOINT, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let joints = entry.value.of.matching(Kind::JOINT, outline).into_iter();
-            let names = joints.map(|joint| &outline.names(Kind::JOINT)[joint]);
+            let joints = entry.value.of.matching(NameKind::JOINT, outline).into_iter();
+            let names = joints.map(|joint| &outline.names(NameKind::JOINT)[joint]);
             let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }

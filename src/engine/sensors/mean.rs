@@ -5,13 +5,13 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found, check_quantity, find_all, require};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Name;
 use crate::world::sections::Region;
@@ -51,12 +51,8 @@ impl Entry for Mean {
     const NAME: &'static str = "Mean";
     const EXAMPLE: &'static str = "Mean(name: \"bed\", of: \"grain_*\", quantity: \"speed\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -64,10 +60,12 @@ impl Entry for Mean {
         check_quantity(&self.quantity, "quantity", outline, report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
         let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        for (Written { value: Self { name, of, quantity, within }, .. }, mention) in entries.into_iter().zip(mentions) {
+        for (WrittenEntry { value: Self { name, of, quantity, within }, .. }, mention) in
+            entries.into_iter().zip(mentions)
+        {
             let group = Group::new(&of, within, outline, world);
             let named = |body: &Entity| world.get::<Name>(*body).map(|name| format!("{name}.{quantity}"));
             let names: Vec<String> = group.all().iter().filter_map(named).collect();

@@ -32,7 +32,7 @@ use bevy_ecs::prelude::*;
 
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::{Names, Word};
-use crate::scene::{Arity, Diagnostics, Kind, Outline, SceneAppExt, SceneError, fits, suggest};
+use crate::scene::{Arity, Diagnostics, NameKind, Outline, SceneAppExt, SceneError, fits, suggest};
 use crate::tick::energy::CHANNELS;
 use crate::tick::{LoadErrors, State, index_of};
 use crate::world::{Bodies, Body, Name, Wall};
@@ -167,9 +167,11 @@ pub fn check_channel(name: &str, path: &str, outline: &Outline, report: &mut Dia
     if ["energy", "overlap"].contains(&owner) {
         Word(name.to_owned()).check(outline, CHANNELS, path, report);
     } else if Word(quantity.to_owned()).check(outline, QUANTITIES, path, report) {
-        let named = |kind: &Kind| [Kind::WALL, Kind::BODY].contains(kind) || outline.count(*kind) > 0;
-        let owners: Vec<Kind> =
-            [Kind::WALL, Kind::BODY, Kind::JOINT, CONTROLLER, Kind::SENSOR].into_iter().filter(named).collect();
+        let named = |kind: &NameKind| [NameKind::WALL, NameKind::BODY].contains(kind) || outline.count(*kind) > 0;
+        let owners: Vec<NameKind> = [NameKind::WALL, NameKind::BODY, NameKind::JOINT, CONTROLLER, NameKind::SENSOR]
+            .into_iter()
+            .filter(named)
+            .collect();
         outline.require_any(&owners, owner, path, report);
     }
 }
@@ -180,7 +182,7 @@ pub fn check_channels(pattern: &str, path: &str, outline: &Outline, report: &mut
     match pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) {
         Some((owner, quantity)) => {
             if check_quantity(quantity, path, outline, report) {
-                outline.require_matching(Kind::BODY, owner, path, report);
+                outline.require_matching(NameKind::BODY, owner, path, report);
             }
         }
         None => check_channel(pattern, path, outline, report),
@@ -197,7 +199,7 @@ pub fn chosen(pattern: &str, outline: &Outline) -> Vec<String> {
     let Some((owner, quantity)) = pattern.split_once('.').filter(|(owner, _)| owner.contains('*')) else {
         return vec![pattern.to_owned()];
     };
-    let bodies = outline.matching(Kind::BODY, owner).into_iter().map(|index| &outline.names(Kind::BODY)[index]);
+    let bodies = outline.matching(NameKind::BODY, owner).into_iter().map(|index| &outline.names(NameKind::BODY)[index]);
     bodies.map(|body| format!("{body}.{quantity}")).collect()
 }
 
@@ -208,7 +210,7 @@ pub fn expanded(pattern: &str, world: &mut World, outline: &Outline) -> Vec<Stri
         return chosen(pattern, outline);
     };
     let whole = outline.words(CHANNELS).map(|(name, _)| name.to_owned());
-    let owners = [Kind::BODY, Kind::WALL].into_iter().flat_map(|kind| outline.names(kind));
+    let owners = [NameKind::BODY, NameKind::WALL].into_iter().flat_map(|kind| outline.names(kind));
     let owners = owners.filter(|name| fits(owner, name));
     let own = owners.flat_map(|name| outline.words(QUANTITIES).map(move |(quantity, _)| format!("{name}.{quantity}")));
     let fitting: Vec<String> = whole.chain(own).filter(|name| fits(pattern, name)).collect();
@@ -265,7 +267,7 @@ pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
 
 /// The bodies that names mean, in the order of [`Names::matching`].
 fn bodies_named(world: &mut World, names: &Names, outline: &Outline) -> Vec<Entity> {
-    let names = names.matching(Kind::BODY, outline).into_iter().map(|index| &outline.names(Kind::BODY)[index]);
+    let names = names.matching(NameKind::BODY, outline).into_iter().map(|index| &outline.names(NameKind::BODY)[index]);
     with_index(world, |world| names.filter_map(|name| body_named(world, name)).collect())
 }
 

@@ -3,14 +3,14 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::controllers::Output;
 use crate::controllers::output::CONTROLLER;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["torque", "power"];
@@ -29,15 +29,11 @@ impl Entry for Motor {
     const NAME: &'static str = "Motor";
     const EXAMPLE: &'static str = "Motor(of: \"drive\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         self.of.require(CONTROLLER, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
             let found = entry.value.of.matching(CONTROLLER, outline).into_iter();
             let names = found.map(|index| &outline.names(CONTROLLER)[index]);

@@ -3,12 +3,12 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found};
 use crate::contacts::DeepestOverlap;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 const CHANNELS: &[&str] = &["overlap.deepest", "overlap.share"];
@@ -24,11 +24,7 @@ impl Entry for Overlap {
     const NAME: &'static str = "Overlap";
     const EXAMPLE: &'static str = "Overlap()";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_found(app.world_mut(), CHANNELS.iter().map(|&name| name.to_owned()));
     }
 }

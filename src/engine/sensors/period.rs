@@ -6,11 +6,11 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{Channel, SensorAppExt, add_found, check_channel, require};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, add_looker};
 
@@ -56,12 +56,8 @@ impl Entry for Period {
     const NAME: &'static str = "Period";
     const EXAMPLE: &'static str = "Period(name: \"swing\", of: \"ball.position.x\", crossing: 0)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -69,11 +65,11 @@ impl Entry for Period {
         report.finite("crossing", self.crossing);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
         let paths =
             outline.entries(Self::SECTION).iter().filter(|entry| entry.name == Self::NAME).map(|entry| &entry.path);
-        for (Written { value: Self { name, of, crossing }, .. }, path) in entries.into_iter().zip(paths) {
+        for (WrittenEntry { value: Self { name, of, crossing }, .. }, path) in entries.into_iter().zip(paths) {
             let Some(channel) = require(world, outline, &of, format!("{path}.of")) else { continue };
             if !world.contains_resource::<Meters>() {
                 world.init_resource::<Meters>();

@@ -2,12 +2,12 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, of_body};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 
 const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
 
@@ -24,17 +24,14 @@ impl Entry for Pose {
     const NAME: &'static str = "Pose";
     const EXAMPLE: &'static str = "Pose(of: \"ball\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let names = entry.value.of.matching(Kind::BODY, outline).into_iter().map(|b| &outline.names(Kind::BODY)[b]);
+            let names =
+                entry.value.of.matching(NameKind::BODY, outline).into_iter().map(|b| &outline.names(NameKind::BODY)[b]);
             let channels = names.flat_map(|name| QUANTITIES.iter().map(move |quantity| format!("{name}.{quantity}")));
             add_found(app.world_mut(), channels);
         }

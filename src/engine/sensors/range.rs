@@ -9,12 +9,12 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, body_named};
-use crate::scene::units::{Angle, Length, Position};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::units::{Angle, Length, LengthPair};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{State, index_of};
 use crate::world::{Bodies, PackedLine, anchor};
@@ -34,7 +34,7 @@ struct Range {
     of: String,
     /// The beginning of the ray in the body's frame, in m. It counts from the centre of mass, or from the origin with
     /// `datum: Origin`. Default: the centre of mass.
-    at: Option<Position>,
+    at: Option<LengthPair>,
     /// The direction of the ray in the body's frame, counter-clockwise from its x axis, in rad. Default: 0.
     #[serde(default)]
     angle: Angle,
@@ -60,16 +60,12 @@ impl Entry for Range {
     const NAME: &'static str = "Range";
     const EXAMPLE: &'static str = "Range(name: \"eye\", of: \"car\", at: (0.2, 0), angle: \"-10 deg\", reach: 5)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require_any(&[Kind::BODY], &self.of, "of", report);
+        outline.require_any(&[NameKind::BODY], &self.of, "of", report);
         if let Some(at) = self.at {
             report.finite_pair("at", at.si());
         }
@@ -79,12 +75,15 @@ impl Entry for Range {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
         let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        for (Written { value: Self { name, of, at, angle, reach }, .. }, mention) in entries.into_iter().zip(mentions) {
+        for (WrittenEntry { value: Self { name, of, at, angle, reach }, .. }, mention) in
+            entries.into_iter().zip(mentions)
+        {
             let Some(body) = body_named(world, &of) else { continue };
-            let from_center = |at: Position| anchor::from_center(world, body, format!("{}.at", mention.path), at.si());
+            let from_center =
+                |at: LengthPair| anchor::from_center(world, body, format!("{}.at", mention.path), at.si());
             let at = at.map_or(DVec2::ZERO, from_center);
             let reach = reach.map_or(f64::INFINITY, |reach| reach.si());
             let beam = Beam { body, at, angle: angle.si(), reach };

@@ -13,14 +13,14 @@ use std::collections::BTreeMap;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
 use super::{Channel, SensorAppExt, add_found};
 use crate::scene::units::{Length, Scalar, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 use crate::tick::kept::SnapshotAppExt;
 use crate::world::Bodies;
@@ -79,12 +79,8 @@ impl Entry for Repose {
     const EXAMPLE: &'static str =
         "Repose(name: \"heap\", of: \"grain_*\", within: ((-0.3, 0), (0.3, 0.3)), slower_than: 0.05)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn declare(&self, outline: &mut Outline) {
-        outline.declare(Kind::SENSOR, &self.name, "name");
+        outline.declare(NameKind::SENSOR, &self.name, "name");
     }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -99,9 +95,9 @@ impl Entry for Repose {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let world = app.world_mut();
-        for Written { value: Self { name, of, within, slower_than, column, heights }, .. } in entries {
+        for WrittenEntry { value: Self { name, of, within, slower_than, column, heights }, .. } in entries {
             let heap = Heap {
                 name: name.clone(),
                 group: Group::new(&of, within, outline, world),

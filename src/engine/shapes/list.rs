@@ -5,7 +5,7 @@ use serde::Deserialize;
 
 use super::AtomSpec;
 use crate::scene::Diagnostics;
-use crate::scene::units::{Length, Mass, Position, Stiffness};
+use crate::scene::units::{Length, LengthPair, Mass, Stiffness};
 
 /// One disc of a list.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
@@ -13,7 +13,7 @@ use crate::scene::units::{Length, Mass, Position, Stiffness};
 #[schemars(rename = "ListedDisc")]
 pub struct ListedDisc {
     /// The centre in m, in the body's own frame.
-    pub at: Position,
+    pub at: LengthPair,
     /// The radius in m. Above zero.
     pub radius: Length,
     /// The mass in kg. Above zero. Default: the material's density times the area.

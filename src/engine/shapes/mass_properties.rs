@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use jostle_shapes::{AreaMoments, Hull, mark_inner};
 
-use super::outline::Part;
+use super::outline::OutlinePart;
 use super::{AtomSpec, union};
 use crate::scene::Diagnostics;
 use crate::scene::units::Inertia;
@@ -142,7 +142,7 @@ pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64
 /// separately, and overlaps of two parts count twice. The atoms together are one such part.
 pub fn of_parts(
     specs: &[AtomSpec],
-    parts: &[Part],
+    parts: &[OutlinePart],
     mass: Option<f64>,
     rule: InertiaRule,
     density: f64,
@@ -237,7 +237,7 @@ pub fn reach(specs: &[AtomSpec], rule: InertiaRule) -> f64 {
 }
 
 /// The same of a body that has parts with sides.
-pub fn reach_of_parts(specs: &[AtomSpec], parts: &[Part]) -> f64 {
+pub fn reach_of_parts(specs: &[AtomSpec], parts: &[OutlinePart]) -> f64 {
     let disc = |atom: &AtomSpec| Hull::disc(atom.offset, atom.radius).ok();
     let hulls: Vec<Hull> =
         parts.iter().flat_map(|part| part.hulls.iter().cloned()).chain(specs.iter().filter_map(disc)).collect();

@@ -1,6 +1,6 @@
 //! Shapes, and their common form: a list of discs, the atoms.
 //!
-//! A shape is one file with its fields, its check and `specs`, and one line in [`Atoms`].
+//! A shape is one file with its fields, its check and `specs`, and one line in [`AtomShape`].
 
 pub mod disc;
 pub mod list;
@@ -46,11 +46,11 @@ macro_rules! shapes {
         /// The discs a body is made of: one of the shapes.
         #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
-        pub enum Atoms {
+        pub enum AtomShape {
             $($(#[$about])* $name($fields),)*
         }
 
-        impl Atoms {
+        impl AtomShape {
             /// Reports what its type cannot exclude; paths are relative to the shape.
             pub fn check(&self, report: &mut Diagnostics) {
                 match self {
@@ -68,7 +68,7 @@ macro_rules! shapes {
     };
 }
 
-impl Atoms {
+impl AtomShape {
     /// The default rule for mass and inertia: the covered area for shapes whose discs overlap by design.
     pub fn own_rule(&self) -> InertiaRule {
         if matches!(self, Self::Png(_)) { InertiaRule::Union } else { InertiaRule::default() }

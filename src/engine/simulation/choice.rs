@@ -7,8 +7,8 @@ use bevy_ecs::prelude::*;
 use super::Overrides;
 use crate::integrate::ChosenMethod;
 use crate::integrate::ClockSection;
-use crate::integrate::clock::EventTiming;
-use crate::integrate::{Allowance, Description, Detail, MOST_STEPS, Methods, Pace};
+use crate::integrate::clock_section::EventTiming;
+use crate::integrate::{Allowance, Description, Detail, MOST_STEPS, Methods, StepPace};
 use crate::joints::Joint;
 use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
@@ -55,7 +55,7 @@ pub struct Plan {
     /// Length of a tick in seconds.
     pub tick: f64,
     /// Steps of a tick.
-    pub pace: Pace,
+    pub pace: StepPace,
     /// The fineness of steps beside that.
     pub detail: Detail,
     /// When forces jump.
@@ -182,7 +182,7 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         notes.push(format!("method {name} chosen: {why}"));
         method = name.to_owned();
     }
-    let (pace, detail, events) = (Pace::Even(1), Detail::default(), clock.events);
+    let (pace, detail, events) = (StepPace::Even(1), Detail::default(), clock.events);
     Ok(Plan { method, tick, pace, detail, events, notes, error: None, warning: None })
 }
 
@@ -220,7 +220,7 @@ fn plan_for(
     let mut plan = Plan {
         method: String::new(),
         tick,
-        pace: Pace::Even(1),
+        pace: StepPace::Even(1),
         detail: Detail::default(),
         events: clock.events,
         notes: Vec::new(),
@@ -243,9 +243,9 @@ fn plan_for(
     let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
     plan.pace = if estimates {
         // Trials determine the allowed error of a step.
-        Pace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
+        StepPace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
     } else {
-        Pace::Even(steps_per_tick(world, &plan))
+        StepPace::Even(steps_per_tick(world, &plan))
     };
     Ok(plan)
 }

@@ -19,7 +19,7 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::contacts;
-use crate::expect::{Expectations, Outcome, observe_all};
+use crate::expect::{ExpectationOutcome, Expectations, observe_all};
 use crate::record::layers::{self, WantedLayers};
 use crate::record::sections::FilmSection;
 use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
@@ -28,7 +28,7 @@ use crate::threads::Threads;
 use crate::tick::{
     AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, open, rebuild,
 };
-use crate::world::hull::Mended;
+use crate::world::hull::MendedShapes;
 use crate::world::{Name, atom};
 use accuracy::Tell;
 use jostle_language::numbers::number;
@@ -336,7 +336,7 @@ impl Simulation {
     }
 
     /// The outcomes of the scene's expectations so far.
-    pub fn outcomes(&self) -> Vec<Outcome> {
+    pub fn outcomes(&self) -> Vec<ExpectationOutcome> {
         self.unpublished_world().get_resource::<Expectations>().map_or_else(Vec::new, Expectations::outcomes)
     }
 }
@@ -361,7 +361,7 @@ pub fn begin(
     overrides: &Overrides,
 ) -> Result<u64, SceneErrors> {
     world.resource_mut::<Notes>().0.extend(header.remarks.iter().cloned());
-    if let Some(mended) = world.remove_resource::<Mended>() {
+    if let Some(mended) = world.remove_resource::<MendedShapes>() {
         world.resource_mut::<Notes>().0.extend(mended.notes());
     }
     if let Some(factor) = overrides.stiffness {

@@ -5,7 +5,7 @@ use std::sync::Arc;
 use bevy_ecs::prelude::*;
 use jostle_shapes::Hull;
 
-use crate::record::frame::{BodyLook, Cast, Disc, Frame, HullLook, Pose, WallLook};
+use crate::record::frame::{BodyLook, BodyPose, Cast, Disc, Frame, HullLook, WallLook};
 use crate::record::layers::Layers;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
@@ -55,7 +55,7 @@ impl Recorder {
         let pose = |&(key, after): &(u64, MotionSample)| {
             let before = self.before.binary_search_by_key(&key, |(key, _)| *key).ok().map(|index| self.before[index].1);
             let before = before.filter(|before| !on_tick && before.time <= time).unwrap_or(after);
-            Pose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
+            BodyPose { position: position_between(&before, &after, time), angle: angle_between(&before, &after, time) }
         };
         let marks = if self.bare { Vec::new() } else { Layers::marks(simulation.unpublished_world()) };
         Ok(Frame { time, cast: self.cast.clone(), poses: after.iter().map(pose).collect(), marks, center: None })

@@ -6,7 +6,7 @@
 use std::collections::BTreeMap;
 
 use crate::record::plot::curve_names::{common, headed, with_unit};
-use crate::record::plot::pairs;
+use crate::record::plot::phase_portrait;
 use crate::record::plot::{Axis, Bars, Content, Curve, Decimator, Plot, Sample};
 use crate::record::sections::PlotEntry;
 use crate::scene::Outline;
@@ -173,7 +173,7 @@ fn gauge(simulation: &mut Simulation, entry: &PlotEntry, outline: &Outline) -> R
     let Some(x) = &entry.x else {
         return Ok(Gauge::Times(find(names)?.into_iter().map(|channel| (channel, Decimator::default())).collect()));
     };
-    let across = names.iter().map(|name| pairs::beside(x, name).unwrap_or_else(|| x.clone())).collect();
+    let across = names.iter().map(|name| phase_portrait::beside(x, name).unwrap_or_else(|| x.clone())).collect();
     let pairs = find(across)?.into_iter().zip(find(names)?);
     Ok(Gauge::Phases(pairs.map(|(x, channel)| (x, channel, Vec::new())).collect()))
 }

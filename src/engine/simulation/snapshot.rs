@@ -11,7 +11,7 @@ use serde::{Deserialize, Serialize};
 use super::{Overrides, Simulation};
 use crate::expect::Expectations;
 use crate::scene::SceneErrors;
-use crate::tick::snapshot::{Unfit, Unsaved, recall};
+use crate::tick::snapshot::{UnfitSnapshot, Unsaved, recall};
 use crate::tick::{Notes, State, kept, open, systems_of_users};
 use jostle_language::digest;
 
@@ -80,12 +80,12 @@ impl Snapshot {
     ///
     /// # Errors
     /// If the bytes are no snapshot, are damaged, or were written by another version.
-    pub fn from_bytes(bytes: &[u8]) -> Result<Self, Unfit> {
-        let damaged = || Unfit("the snapshot is damaged: its checksum is wrong".to_owned());
-        let Some(rest) = bytes.strip_prefix(MAGIC) else { return Err(Unfit("this is no snapshot".to_owned())) };
+    pub fn from_bytes(bytes: &[u8]) -> Result<Self, UnfitSnapshot> {
+        let damaged = || UnfitSnapshot("the snapshot is damaged: its checksum is wrong".to_owned());
+        let Some(rest) = bytes.strip_prefix(MAGIC) else { return Err(UnfitSnapshot("this is no snapshot".to_owned())) };
         let (format, _) = rest.split_first_chunk().ok_or_else(damaged)?;
         if u32::from_le_bytes(*format) != FORMAT {
-            return Err(Unfit("the snapshot was written by another version of jostle".to_owned()));
+            return Err(UnfitSnapshot("the snapshot was written by another version of jostle".to_owned()));
         }
         let (whole, sum) = bytes.split_last_chunk().ok_or_else(damaged)?;
         if crc32fast::hash(whole) != u32::from_le_bytes(*sum) {
@@ -107,7 +107,7 @@ pub enum ForkError {
     Scene(SceneErrors),
     /// A run of its scene cannot continue from it. Bodies were spawned or removed, systems were added, or an included
     /// file has changed.
-    Unfit(Unfit),
+    Unfit(UnfitSnapshot),
 }
 
 impl fmt::Display for ForkError {
@@ -188,25 +188,28 @@ impl Simulation {
     ///
     /// # Errors
     /// If the snapshot is of another scene, version, method or tick, or the plugins are others.
-    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), Unfit> {
+    pub fn restore(&mut self, snapshot: &Snapshot) -> Result<(), UnfitSnapshot> {
         if !self.contains_resource::<State>() {
-            return Err(Unfit("this run has lost its resource `State`: load the scene again".to_owned()));
+            return Err(UnfitSnapshot("this run has lost its resource `State`: load the scene again".to_owned()));
         }
         open(&mut self.world);
         let Header { version, scene, plan, systems, .. } = self.identity();
         let of = &snapshot.header;
         if of.version != version {
-            return Err(Unfit(format!("version {} wrote the snapshot, and this is version {version}", of.version)));
+            return Err(UnfitSnapshot(format!(
+                "version {} wrote the snapshot, and this is version {version}",
+                of.version
+            )));
         }
         if of.scene != scene {
-            return Err(Unfit(
+            return Err(UnfitSnapshot(
                 "the snapshot is of another scene, or of another text of this one, be it only a comment".to_owned(),
             ));
         }
         if of.plan != plan {
             let words = |plan: &str| plan.split(" (").next().unwrap_or_default().to_owned();
             let (theirs, own) = (words(&of.plan), words(&plan));
-            return Err(Unfit(if theirs == own {
+            return Err(UnfitSnapshot(if theirs == own {
                 format!(
                     "both runs go by {own}, but with other steps inside them. A tolerance chooses these from the whole run: \
                      give both runs the same tolerance and duration"
@@ -217,7 +220,7 @@ impl Simulation {
         }
         if of.systems != systems {
             let (theirs, own) = (of.systems.join(", "), systems.join(", "));
-            return Err(Unfit(format!(
+            return Err(UnfitSnapshot(format!(
                 "the snapshot's run has other systems in the tick: [{theirs}] instead of [{own}]"
             )));
         }

@@ -7,14 +7,14 @@ use bevy_ecs::schedule::{ScheduleCleanupPolicy, ScheduleLabel, Schedules};
 use super::components::{
     clear_forces, collect_forces, components_differ, load_state, make_pushable, publish_components,
 };
-use super::failure::{Failure, Trouble, Wrong};
+use super::failure::{Failure, FailureKind, Trouble};
 use super::flight_permission;
 use super::ledger::Totals;
 use super::progress::Progress;
-use super::registered::{Kind, Registered};
+use super::registered::{Registered, SystemKind};
 use super::stages::schedule_stages;
 use super::step::{integrate, integrate_among_systems, refresh};
-use super::stopwatch::Part;
+use super::stopwatch::TickPart;
 use super::{Evaluate, EvaluateStage, Method, Modes, SimTick, Stage, State};
 use crate::world::{Bodies, Roster, incomplete, packed};
 
@@ -90,7 +90,7 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
             break;
         }
         if watched {
-            world.resource_mut::<State>().turn_to(Part::Begin);
+            world.resource_mut::<State>().turn_to(TickPart::Begin);
         }
         sim.run(world);
         let Some(state) = world.get_resource::<State>() else { return Err(Failure::gone(STATE)) };
@@ -154,7 +154,7 @@ fn mend(world: &mut World) -> Option<Trouble> {
     if trouble.wrong.can_be_mended() {
         progress.trouble = None;
     }
-    if matches!(trouble.wrong, Wrong::Torn(_)) {
+    if matches!(trouble.wrong, FailureKind::Torn(_)) {
         progress.behind = false;
         let previous = std::mem::take(&mut world.resource_mut::<State>().bodies);
         let Bodies { generation, level, threads, field, .. } = previous;
@@ -169,7 +169,7 @@ impl State {
     /// Lists of bodies that do not fit each other are made to, and the run ends. Says whether there was one.
     pub(super) fn heal(&mut self) -> bool {
         let Some(list) = self.bodies.make_fit() else { return false };
-        self.progress.trouble.get_or_insert(Trouble::at(&self.clock, None, Wrong::Torn(list)));
+        self.progress.trouble.get_or_insert(Trouble::at(&self.clock, None, FailureKind::Torn(list)));
         true
     }
 }
@@ -242,7 +242,7 @@ impl State {
             self.note_failure();
         }
         self.progress.behind = true;
-        self.turn_to(Part::Between);
+        self.turn_to(TickPart::Between);
     }
 
     /// Asks for components that are up to date after each batch, for systems that read them between ticks.
@@ -349,7 +349,7 @@ fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedu
         // If a user has removed the integrator, it stays removed.
         let gone = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
         if gone.is_ok_and(|gone| gone > 0) {
-            Registered::add(world, SimTick, sim, Kind::Flies, |sim| {
+            Registered::add(world, SimTick, sim, SystemKind::Flies, |sim| {
                 sim.add_systems(integrate_among_systems.in_set(Stage::Integrate));
             });
         }
@@ -393,7 +393,7 @@ fn take_up_changes(world: &mut World) -> Option<Totals> {
 pub(crate) fn rebuild(world: &mut World) -> bool {
     if let Some((entity, component)) = incomplete(world) {
         let mut state = world.resource_mut::<State>();
-        let trouble = Trouble { entity: Some(entity), ..Trouble::at(&state.clock, None, Wrong::Lost(component)) };
+        let trouble = Trouble { entity: Some(entity), ..Trouble::at(&state.clock, None, FailureKind::Lost(component)) };
         state.progress.trouble.get_or_insert(trouble);
         return false;
     }

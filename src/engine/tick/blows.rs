@@ -2,7 +2,7 @@
 //! rates.
 
 use super::State;
-use super::hold::{FromOutside, find_rows};
+use super::stabilisation::{FromOutside, find_rows};
 use crate::constraints::{Row, Rows};
 use crate::world::Bodies;
 

@@ -2,10 +2,10 @@
 
 use bevy_ecs::prelude::*;
 
-use super::failure::{Trouble, Wrong};
+use super::failure::{FailureKind, Trouble};
 use super::model::Indicator;
 use super::progress::{LocatedEvents, Progress, StepCount};
-use super::stopwatch::Part;
+use super::stopwatch::TickPart;
 use super::{Clock, Evaluation, EvaluationMode, Rates, Span, State};
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
@@ -152,7 +152,7 @@ impl Tick<'_> {
                 self.state.settle();
             }
         }
-        self.state.turn_to(Part::Integrate);
+        self.state.turn_to(TickPart::Integrate);
     }
 
     /// Whether the state is the first of all, or was changed by others since the last tick.
@@ -335,7 +335,7 @@ impl Tick<'_> {
         let Clock { ticks, .. } = self.state.clock;
         let time = self.state.evaluation.time;
         let progress = &mut self.state.progress;
-        let wrong = Wrong::Steps(step);
+        let wrong = FailureKind::Steps(step);
         progress.trouble.get_or_insert(Trouble { body: worst, entity: None, wrong, tick: ticks + 1, time });
     }
 

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::hold::FromOutside;
+use super::stabilisation::FromOutside;
 use crate::world::Bodies;
 
 /// Places after a drift.

@@ -14,7 +14,7 @@ pub struct Failure {
     /// Name of the other body or wall in it, or an empty text.
     pub other: String,
     /// The failure.
-    pub wrong: Wrong,
+    pub wrong: FailureKind,
     /// The tick that made it.
     pub tick: u64,
     /// Its time in seconds.
@@ -27,21 +27,21 @@ pub(super) struct Trouble {
     pub body: Option<usize>,
     /// The body itself, if it has no index yet.
     pub entity: Option<Entity>,
-    pub wrong: Wrong,
+    pub wrong: FailureKind,
     pub tick: u64,
     pub time: f64,
 }
 
 impl Trouble {
     /// At the end of the last tick.
-    pub fn at(clock: &Clock, body: Option<usize>, wrong: Wrong) -> Self {
+    pub fn at(clock: &Clock, body: Option<usize>, wrong: FailureKind) -> Self {
         Self { body, entity: None, wrong, tick: clock.ticks, time: clock.time() }
     }
 }
 
 /// The kinds of failures.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Wrong {
+pub enum FailureKind {
     /// This quantity has become NaN or infinite.
     NotFinite(&'static str),
     /// Energy came out of nowhere.
@@ -74,7 +74,7 @@ pub enum Wrong {
     Gone(&'static str),
 }
 
-impl Wrong {
+impl FailureKind {
     /// Whether the run can continue after its author has removed the cause.
     pub(super) fn can_be_mended(&self) -> bool {
         matches!(self, Self::Torn(_) | Self::Lost(_) | Self::Gone(_))
@@ -84,7 +84,7 @@ impl Wrong {
 impl Failure {
     /// A part of the world without which no tick runs is gone.
     pub(super) fn gone(name: &'static str) -> Self {
-        Self { body: String::new(), other: String::new(), wrong: Wrong::Gone(name), tick: 0, time: 0.0 }
+        Self { body: String::new(), other: String::new(), wrong: FailureKind::Gone(name), tick: 0, time: 0.0 }
     }
 }
 
@@ -92,38 +92,38 @@ impl std::fmt::Display for Failure {
     fn fmt(&self, f: &mut std::fmt::Formatter) -> std::fmt::Result {
         let Self { body, other, wrong, tick, time } = self;
         let why = match wrong {
-            Wrong::Gone(name) => {
+            FailureKind::Gone(name) => {
                 return write!(
                     f,
                     "{name} is gone, and no tick runs without it. Put it back as it was, or load the scene again"
                 );
             }
-            Wrong::Pairs(most) => {
+            FailureKind::Pairs(most) => {
                 write!(f, "more than {most} pairs of atoms lie near each other, most of them of `{body}`,")?;
                 ": so many contacts do not fit into memory".to_owned()
             }
-            Wrong::Torn(list) => {
+            FailureKind::Torn(list) => {
                 write!(
                     f,
                     "a system has left the packed list `{list}` of bodies in a state that does not fit the others"
                 )?;
                 ": change items alone; spawn or despawn entities to change lengths".to_owned()
             }
-            Wrong::Lost(component) => {
+            FailureKind::Lost(component) => {
                 write!(f, "`{body}` has lost its component `{component}`")?;
                 ": put it back, or despawn the body".to_owned()
             }
-            Wrong::NotFinite(quantity) => {
+            FailureKind::NotFinite(quantity) => {
                 write!(f, "the {quantity} of `{body}` is infinite or NaN")?;
                 String::new()
             }
-            Wrong::Steps(step) => {
+            FailureKind::Steps(step) => {
                 let short =
                     if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
                 write!(f, "steps have become {short}")?;
                 format!(": the acceleration of `{body}` grows beyond all bounds")
             }
-            Wrong::Joint { meters, dead } => {
+            FailureKind::Joint { meters, dead } => {
                 write!(f, "a joint of `{body}` does not close, {} m are left,", number(*meters))?;
                 match dead {
                     true => ": its loop is at a dead point, where bars are in line and the way on is not determined"
@@ -131,30 +131,30 @@ impl std::fmt::Display for Failure {
                     false => ": its bodies turn too far in a step".to_owned(),
                 }
             }
-            Wrong::Crossed(_) => {
+            FailureKind::Crossed(_) => {
                 write!(f, "`{body}` has passed through `{other}`")?;
                 ": its contact is too soft for that speed, or the tick is too long. Give it more `stiffness`, a strip more \
                  `thickness`, or a shorter `tick`"
                     .to_owned()
             }
-            Wrong::Behind(_) => {
+            FailureKind::Behind(_) => {
                 write!(f, "`{body}` has come through `{other}` from behind, where it is open,")?;
                 format!(
                     ": only its other side holds bodies. Let `{body}` begin on that side, reverse the points of `{other}`, or \
                      give a strip `sides: Both`"
                 )
             }
-            Wrong::Sunk(_) => {
+            FailureKind::Sunk(_) => {
                 write!(f, "a sharp corner has sunk too deep between `{body}` and `{other}`")?;
                 ": the side that it came through is not known. Give them a `rounding` of some hundredths of their size, or \
                  more `stiffness`"
                     .to_owned()
             }
-            Wrong::Contradiction => {
+            FailureKind::Contradiction => {
                 write!(f, "motors and joints ask for different motions of `{body}`")?;
                 ": no velocity suits them all. Give a motor a `limit`".to_owned()
             }
-            Wrong::Energy(Created { energy, put_in }) => {
+            FailureKind::Energy(Created { energy, put_in }) => {
                 write!(
                     f,
                     "energy came out of nowhere, {energy:.1e} J beside {put_in:.1e} J that were put in, most of it in `{body}`,"

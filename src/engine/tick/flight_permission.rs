@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 use bevy_ecs::schedule::IntoScheduleConfigs;
 use bevy_ecs::system::ScheduleSystem;
 
-use super::registered::{Kind, Registered, register};
+use super::registered::{Registered, SystemKind, register};
 use super::{Evaluate, Modes, SimTick, Stage, State};
 
 /// Called before a batch of ticks. It checks whether all forces are right while bodies fly, and whether others read the
@@ -53,7 +53,7 @@ impl State {
 /// Adds a system to [`Stage::Observe`](super::Stage::Observe) that changes nothing, and reads the state at the ends of
 /// some ticks only. [`look_at_ticks`] receives these ticks.
 pub(crate) fn add_observer_of_ticks<M>(world: &mut World, system: impl IntoScheduleConfigs<ScheduleSystem, M>) {
-    register(world, SimTick, Kind::Flies, |schedule| {
+    register(world, SimTick, SystemKind::Flies, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));
     });
 }

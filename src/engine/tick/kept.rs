@@ -13,7 +13,7 @@ use serde::Serialize;
 use serde::de::DeserializeOwned;
 
 use super::registered::is_own;
-use super::snapshot::{Memory, Unfit, Unsaved, recall};
+use super::snapshot::{Memory, UnfitSnapshot, Unsaved, recall};
 
 /// Registration of the contents of snapshots by plugins.
 pub trait SnapshotAppExt {
@@ -30,7 +30,7 @@ pub trait SnapshotAppExt {
 }
 
 type Save = fn(&mut World) -> Memory;
-type Load = fn(&mut World, &[u8]) -> Result<(), Unfit>;
+type Load = fn(&mut World, &[u8]) -> Result<(), UnfitSnapshot>;
 
 /// The registered types, in order.
 #[derive(Resource, Default)]
@@ -68,7 +68,7 @@ impl SnapshotAppExt for App {
             for (entity, component) in saved {
                 let mut entity = world
                     .get_entity_mut(entity)
-                    .map_err(|_| Unfit(format!("the entity {entity} of a component is not there")))?;
+                    .map_err(|_| UnfitSnapshot(format!("the entity {entity} of a component is not there")))?;
                 entity.insert(component);
             }
             Ok(())
@@ -96,14 +96,14 @@ pub(crate) fn save(world: &mut World) -> Result<Vec<Option<Vec<u8>>>, Unsaved> {
 }
 
 /// Takes up what [`save`] gave.
-pub(crate) fn load(world: &mut World, saved: &[Option<Vec<u8>>]) -> Result<(), Unfit> {
+pub(crate) fn load(world: &mut World, saved: &[Option<Vec<u8>>]) -> Result<(), UnfitSnapshot> {
     let keepers = world.get_resource_or_init::<Kept>().keepers.clone();
     if keepers.len() != saved.len() {
-        return Err(Unfit("its plugins keep other resources or components than those of this run".to_owned()));
+        return Err(UnfitSnapshot("its plugins keep other resources or components than those of this run".to_owned()));
     }
     for ((name, _, load), bytes) in keepers.into_iter().zip(saved) {
         if let Some(bytes) = bytes {
-            load(world, bytes).map_err(|Unfit(why)| Unfit(format!("`{name}`: {why}")))?;
+            load(world, bytes).map_err(|UnfitSnapshot(why)| UnfitSnapshot(format!("`{name}`: {why}")))?;
         }
     }
     Ok(())

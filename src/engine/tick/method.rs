@@ -1,6 +1,6 @@
 //! The interface of an integration method to the tick.
 
-use super::snapshot::{Memory, Unfit};
+use super::snapshot::{Memory, UnfitSnapshot};
 use super::{EvaluationMode, Tick};
 
 /// A method that advances the state by one tick.
@@ -28,7 +28,7 @@ pub trait Integrator: Send + Sync + 'static {
     ///
     /// # Errors
     /// If the bytes are not its own.
-    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, _: &[u8]) -> Result<(), UnfitSnapshot> {
         Ok(())
     }
 }

@@ -34,14 +34,13 @@ pub mod clock;
 mod components;
 mod context;
 pub mod critical_step;
+pub mod differential_equations;
 mod drifted;
 pub mod energy;
 mod failure;
 mod flight_permission;
-pub mod flow;
 mod following;
 mod guard;
-mod hold;
 pub mod kept;
 pub mod ledger;
 mod method;
@@ -53,6 +52,7 @@ mod progress;
 mod registered;
 mod roles;
 pub mod snapshot;
+mod stabilisation;
 pub mod stability;
 pub mod stages;
 mod state;
@@ -74,11 +74,10 @@ pub use blows::Blow;
 pub use clock::{Clock, Evaluation, EvaluationMode, Span};
 pub use components::index_of;
 pub use context::Tick;
-pub use failure::{Failure, Wrong};
+pub use differential_equations::{Reach, WorldFlow};
+pub use failure::{Failure, FailureKind};
 pub(crate) use flight_permission::{add_observer_of_ticks, look_at_ticks};
-pub use flow::{Reach, WorldFlow};
 pub use guard::Created;
-pub use hold::{FromOutside, JointDrift, Noted};
 pub use ledger::{Ledger, Rates, Totals};
 pub use method::{Integrator, Method};
 pub use model::{
@@ -88,7 +87,8 @@ pub use notes::Notes;
 pub use ode::Flow;
 pub use progress::{LocatedEvents, StepCount};
 pub(crate) use registered::systems_of_users;
-use registered::{Kind, register};
+use registered::{SystemKind, register};
+pub use stabilisation::{FromOutside, JointDrift, Noted};
 pub use stability::{Briefest, Fastest, Foreseen, Holder, Stability, TimeScales};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
@@ -173,7 +173,7 @@ impl TickAppExt for App {
         evaluate.configure_sets((Bounds, Systems, Forces, Constraints, Settle).chain());
         self.add_schedule(tick).add_schedule(evaluate).add_schedule(single_threaded(Modes));
         self.init_resource::<State>().insert_resource(crate::world::Roster { changed: true, pushed: false });
-        register(self.world_mut(), SimTick, Kind::Flies, |schedule| {
+        register(self.world_mut(), SimTick, SystemKind::Flies, |schedule| {
             schedule.add_systems(step::integrate.in_set(Stage::Integrate));
         });
         self
@@ -211,14 +211,14 @@ pub fn add_packed_systems<M>(
     schedule: impl ScheduleLabel,
     systems: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>,
 ) {
-    register(world, schedule, Kind::Packed, |schedule| {
+    register(world, schedule, SystemKind::Packed, |schedule| {
         schedule.add_systems(systems);
     });
 }
 
 /// Adds one system to [`Stage::Observe`] that looks at the state and changes nothing of it.
 pub(crate) fn add_looker<M>(world: &mut World, system: impl IntoScheduleConfigs<bevy_ecs::system::ScheduleSystem, M>) {
-    register(world, SimTick, Kind::Looks, |schedule| {
+    register(world, SimTick, SystemKind::Looks, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));
     });
 }

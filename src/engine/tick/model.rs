@@ -6,7 +6,7 @@ use std::any::Any;
 use bevy_ecs::prelude::World;
 use glam::DVec2;
 
-use super::snapshot::{Memory, Unfit};
+use super::snapshot::{Memory, UnfitSnapshot};
 use super::touch::ContactPoint;
 use super::{EvaluationMode, State, SteadySpring, TimeScales};
 use crate::constraints::Rows;
@@ -219,7 +219,7 @@ pub trait Model: Any + Send + Sync {
     ///
     /// # Errors
     /// If the bytes are not its own.
-    fn load(&mut self, _: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, _: &[u8]) -> Result<(), UnfitSnapshot> {
         Ok(())
     }
 

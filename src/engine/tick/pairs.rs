@@ -175,6 +175,14 @@ impl CandidatePairs {
             Surface::Hull(_) => None,
         })
     }
+
+    /// The number of pairs, and of those that touch.
+    pub fn count(&self, bodies: &Bodies) -> (usize, usize) {
+        let between = |pair: &AtomPair| bodies.atom_place(pair.a as usize).distance(bodies.atom_place(pair.b as usize));
+        let atoms = self.atoms.iter().filter(|pair| between(pair) < pair.reach(bodies)).count();
+        let surfaces = self.surfaces.iter().filter(|pair| pair.overlap(bodies) > 0.0).count();
+        (self.atoms.len() + self.surfaces.len(), atoms + surfaces)
+    }
 }
 
 /// How pairs of atoms are searched.

@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 
 use super::Method;
 use super::batch::Running;
-use super::failure::{Trouble, Wrong};
+use super::failure::{FailureKind, Trouble};
 use super::guard::EnergyGuard;
 use super::ledger::Totals;
 use super::travel::FarTravel;
@@ -67,7 +67,7 @@ pub(super) struct Progress {
 impl Progress {
     /// Whether the lists of bodies did not fit each other.
     pub fn is_torn(&self) -> bool {
-        self.trouble.is_some_and(|trouble| matches!(trouble.wrong, Wrong::Torn(_)))
+        self.trouble.is_some_and(|trouble| matches!(trouble.wrong, FailureKind::Torn(_)))
     }
 }
 

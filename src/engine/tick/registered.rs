@@ -11,7 +11,7 @@ use super::{Evaluate, Modes, SimTick};
 
 /// The knowledge of a system.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(crate) enum Kind {
+pub(crate) enum SystemKind {
     /// It works on the state only.
     Packed,
     /// It looks at the state, at the end of each tick, and changes nothing of it.
@@ -25,7 +25,7 @@ pub(crate) enum Kind {
 struct Known {
     schedule: Interned<dyn ScheduleLabel>,
     system: SystemKey,
-    kind: Kind,
+    kind: SystemKind,
 }
 
 /// The systems that work on the packed state only, in the order in which they were registered.
@@ -62,7 +62,12 @@ pub(crate) fn systems_of_users(world: &World) -> Vec<String> {
 }
 
 /// Adds systems to a schedule, with `add`, that work on the packed state only.
-pub(crate) fn register(world: &mut World, label: impl ScheduleLabel, kind: Kind, add: impl FnOnce(&mut Schedule)) {
+pub(crate) fn register(
+    world: &mut World,
+    label: impl ScheduleLabel,
+    kind: SystemKind,
+    add: impl FnOnce(&mut Schedule),
+) {
     let mut schedules = std::mem::take(&mut *world.get_resource_or_init::<Schedules>());
     Registered::add(world, label.intern(), schedules.entry(label.intern()), kind, add);
     *world.resource_mut::<Schedules>() = schedules;
@@ -74,7 +79,7 @@ impl Registered {
         world: &mut World,
         label: impl ScheduleLabel,
         schedule: &mut Schedule,
-        kind: Kind,
+        kind: SystemKind,
         add: impl FnOnce(&mut Schedule),
     ) {
         let label = label.intern();
@@ -98,18 +103,18 @@ impl Registered {
 
     /// Whether all systems of a schedule are right while bodies fly.
     pub fn all_fly(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
-        self.knows(label.intern(), schedule, |known| known.kind == Kind::Flies)
+        self.knows(label.intern(), schedule, |known| known.kind == SystemKind::Flies)
     }
 
     /// Whether no system of a schedule changes anything of the state but those of the engine.
     pub fn none_writes(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
-        self.knows(label.intern(), schedule, |known| known.kind != Kind::Packed)
+        self.knows(label.intern(), schedule, |known| known.kind != SystemKind::Packed)
     }
 
     /// Whether a schedule holds exactly the systems that the engine registered for it.
     pub fn is_as_registered(&self, label: impl ScheduleLabel, schedule: &Schedule) -> bool {
         let label = label.intern();
-        let own = |known: &Known| known.kind == Kind::Flies;
+        let own = |known: &Known| known.kind == SystemKind::Flies;
         let registered = self.0.iter().filter(|known| known.schedule == label && own(known)).count();
         keys(schedule).count() == registered && self.knows(label, schedule, own)
     }

@@ -45,11 +45,11 @@ impl Memory {
 ///
 /// # Errors
 /// If the bytes are those of another type.
-pub fn recall<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, Unfit> {
+pub fn recall<T: DeserializeOwned>(bytes: &[u8]) -> Result<T, UnfitSnapshot> {
     match postcard::take_from_bytes(bytes) {
         Ok((value, [])) => Ok(value),
-        Ok(_) => Err(Unfit("there are more bytes than this version writes".to_owned())),
-        Err(_) => Err(Unfit("the bytes are not those that this version writes".to_owned())),
+        Ok(_) => Err(UnfitSnapshot("there are more bytes than this version writes".to_owned())),
+        Err(_) => Err(UnfitSnapshot("the bytes are not those that this version writes".to_owned())),
     }
 }
 
@@ -70,15 +70,15 @@ impl std::error::Error for Unsaved {}
 
 /// Why bytes do not fit a run.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Unfit(pub String);
+pub struct UnfitSnapshot(pub String);
 
-impl fmt::Display for Unfit {
+impl fmt::Display for UnfitSnapshot {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         f.write_str(&self.0)
     }
 }
 
-impl std::error::Error for Unfit {}
+impl std::error::Error for UnfitSnapshot {}
 
 /// The parts of a saved state.
 #[derive(Serialize, Deserialize)]
@@ -106,16 +106,16 @@ impl State {
     }
 
     /// Goes on from bytes of [`State::save`], in a run of the same scene. The world must be open; components follow.
-    pub(crate) fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    pub(crate) fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let Saved { state, method, models } = recall(bytes)?;
         let state: Self = recall(&state)?;
         self.demand_same_bodies(&state)?;
         if models.len() != self.models.len() {
-            return Err(Unfit(format!("it has {} models, this run {}", models.len(), self.models.len())));
+            return Err(UnfitSnapshot(format!("it has {} models, this run {}", models.len(), self.models.len())));
         }
         for (model, bytes) in self.models.iter_mut().zip(&models) {
             if let Some(bytes) = bytes {
-                model.load(bytes).map_err(|Unfit(why)| Unfit(format!("{}: {why}", model.name())))?;
+                model.load(bytes).map_err(|UnfitSnapshot(why)| UnfitSnapshot(format!("{}: {why}", model.name())))?;
             }
         }
         if let (Some(method), Some(bytes)) = (&mut self.progress.method, &method) {
@@ -125,14 +125,14 @@ impl State {
         Ok(())
     }
 
-    fn demand_same_bodies(&self, other: &Self) -> Result<(), Unfit> {
+    fn demand_same_bodies(&self, other: &Self) -> Result<(), UnfitSnapshot> {
         let (own, others) = (&self.bodies, &other.bodies);
         let same = own.entity == others.entity && own.key.iter().eq(others.key.iter()) && own.walls == others.walls;
         let accounts = self.ledger.accounts.len() == other.ledger.accounts.len();
         if same && accounts {
             Ok(())
         } else {
-            Err(Unfit("it has other bodies, walls or accounts than this run".to_owned()))
+            Err(UnfitSnapshot("it has other bodies, walls or accounts than this run".to_owned()))
         }
     }
 

@@ -6,7 +6,7 @@
 
 use bevy_ecs::prelude::*;
 
-use super::registered::{Kind, register};
+use super::registered::{SystemKind, register};
 use super::state::Stages;
 use super::{Evaluate, EvaluateStage, Modes, State};
 
@@ -57,27 +57,27 @@ pub(super) fn schedule_stages(world: &mut World) {
         }
     };
     add(needed.bounds, present.bounds, |world| {
-        register(world, Evaluate, Kind::Flies, |evaluate| {
+        register(world, Evaluate, SystemKind::Flies, |evaluate| {
             evaluate.add_systems(update_bounding_boxes.in_set(EvaluateStage::Bounds));
         });
     });
     add(needed.forces, present.forces, |world| {
-        register(world, Evaluate, Kind::Flies, |evaluate| {
+        register(world, Evaluate, SystemKind::Flies, |evaluate| {
             evaluate.add_systems(apply_forces.in_set(EvaluateStage::Forces));
         });
     });
     add(needed.constraints, present.constraints, |world| {
-        register(world, Evaluate, Kind::Flies, |evaluate| {
+        register(world, Evaluate, SystemKind::Flies, |evaluate| {
             evaluate.add_systems(solve_constraints.in_set(EvaluateStage::Constraints));
         });
     });
     add(needed.settle, present.settle, |world| {
-        register(world, Evaluate, Kind::Flies, |evaluate| {
+        register(world, Evaluate, SystemKind::Flies, |evaluate| {
             evaluate.add_systems(settle.in_set(EvaluateStage::Settle));
         });
     });
     add(needed.modes, present.modes, |world| {
-        register(world, Modes, Kind::Flies, |modes| {
+        register(world, Modes, SystemKind::Flies, |modes| {
             modes.add_systems(begin_step);
         });
     });

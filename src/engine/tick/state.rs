@@ -8,14 +8,14 @@ use glam::DVec2;
 
 use super::blows::Blow;
 use super::bounds::Bounds;
-use super::failure::{Trouble, Wrong};
-use super::hold::JointDrift;
+use super::failure::{FailureKind, Trouble};
 use super::ledger::Totals;
 use super::model::{Energies, Model};
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::roles::{Roles, belongs_to_contacts};
-use super::stopwatch::{Part, Stopwatch};
+use super::stabilisation::JointDrift;
+use super::stopwatch::{Stopwatch, TickPart};
 use super::touch::{ContactForces, ContactPoint, DeepestOverlap, Touches};
 use super::{Clock, Evaluation, Ledger, Rates, Span, Stability, SteadySprings, TimeScales};
 use crate::constraints::{Cancelled, DeadPoints, Projection, Rows};
@@ -85,24 +85,24 @@ macro_rules! each {
 impl State {
     /// Stages Bounds and Pairs: checks boxes against the current positions of bodies, and finds candidate pairs.
     pub(super) fn update_bounding_boxes(&mut self) {
-        self.turn_to(Part::Bounds);
+        self.turn_to(TickPart::Bounds);
         let Self { bounds, bodies, evaluation, .. } = self;
         if let Some(bounds) = bounds {
             bounds.update(bodies, evaluation);
         }
-        self.turn_to(Part::Pairs);
+        self.turn_to(TickPart::Pairs);
         each!(self, find_pairs, model => model.find_pairs(self));
     }
 
     /// Stage Forces: all models add to the sums.
     pub(super) fn apply_forces(&mut self) {
-        self.turn_to(Part::Forces);
+        self.turn_to(TickPart::Forces);
         self.rows.clear();
         let mut models = std::mem::take(&mut self.models);
         let (forces, contacts) = models.split_at_mut(self.roles.others);
         forces.iter_mut().for_each(|model| model.apply_forces(self));
         if !contacts.is_empty() {
-            self.turn_to(Part::Contacts);
+            self.turn_to(TickPart::Contacts);
             contacts.iter_mut().for_each(|model| model.apply_forces(self));
         }
         self.models = models;
@@ -120,7 +120,7 @@ impl State {
         if self.rows.is_empty() {
             return;
         }
-        self.turn_to(Part::Constraints);
+        self.turn_to(TickPart::Constraints);
         self.rows.solve(&self.bodies);
         if !self.evaluation.mode.is_staged() {
             self.rows.give_way(&self.bodies);
@@ -134,7 +134,7 @@ impl State {
 
     /// Stage Settle: what depends on all forces.
     pub(super) fn settle(&mut self) {
-        self.turn_to(Part::Settle);
+        self.turn_to(TickPart::Settle);
         each!(self, settle, model => model.settle(self));
     }
 
@@ -145,14 +145,14 @@ impl State {
 
     /// Models choose the modes that stay frozen during the step.
     pub(super) fn begin_step(&mut self) {
-        self.turn_to(Part::Modes);
+        self.turn_to(TickPart::Modes);
         each!(self, begin_step, model => {
             if self.stopwatch.is_some() {
-                self.turn_to(if model.contact_law().is_some() { Part::Rest } else { Part::Modes });
+                self.turn_to(if model.contact_law().is_some() { TickPart::Rest } else { TickPart::Modes });
             }
             model.begin_step(self);
         });
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
     }
 
     /// Models look at the state at the end of a tick.
@@ -166,7 +166,7 @@ impl State {
     }
 
     /// The run ends with this tick, because of a body.
-    pub(crate) fn end_run(&mut self, body: usize, wrong: Wrong) {
+    pub(crate) fn end_run(&mut self, body: usize, wrong: FailureKind) {
         let tick = self.clock.ticks + 1;
         let trouble = Trouble { body: Some(body), entity: None, wrong, tick, time: self.evaluation.time };
         self.progress.trouble.get_or_insert(trouble);
@@ -191,7 +191,7 @@ impl State {
 
     /// Counts the time from here on for another part of the tick, if it is measured.
     #[inline]
-    pub(super) fn turn_to(&mut self, part: Part) {
+    pub(super) fn turn_to(&mut self, part: TickPart) {
         if let Some(stopwatch) = &mut self.stopwatch {
             stopwatch.turn_to(part);
         }

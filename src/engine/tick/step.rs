@@ -5,9 +5,9 @@ use bevy_ecs::prelude::*;
 
 use super::batch::{Others, Running, take_up};
 use super::context::{Tick, Users};
-use super::failure::{Failure, Trouble, Wrong};
+use super::failure::{Failure, FailureKind, Trouble};
 use super::flight_permission;
-use super::stopwatch::Part;
+use super::stopwatch::TickPart;
 use super::{Method, State};
 use crate::world::{Name, finite};
 
@@ -45,7 +45,7 @@ pub(super) fn integrate_among_systems(world: &mut World) {
 impl State {
     /// A tick. `world` is there if systems of users are part of it.
     fn integrate(&mut self, world: Option<&mut World>) {
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
         // A system of a user may have added models, or taken some out.
         self.find_roles();
         let mut running = self.progress.running.take().expect("ticks run inside `step`");
@@ -95,7 +95,7 @@ impl State {
         let alert = tick.alert;
         self.progress.running = Some(running);
         self.end_tick(alert);
-        self.turn_to(Part::Observe);
+        self.turn_to(TickPart::Observe);
     }
 
     fn end_tick(&mut self, alert: bool) {
@@ -128,7 +128,11 @@ impl State {
         let created = energy.look(self, self.progress.travel);
         self.progress.energy = energy;
         if let Some((body, created)) = created {
-            let wrong = if created.energy.is_finite() { Wrong::Energy(created) } else { Wrong::NotFinite("energy") };
+            let wrong = if created.energy.is_finite() {
+                FailureKind::Energy(created)
+            } else {
+                FailureKind::NotFinite("energy")
+            };
             self.progress.trouble.get_or_insert(Trouble::at(&self.clock, Some(body), wrong));
         }
     }
@@ -136,7 +140,7 @@ impl State {
     /// Looks for a NaN or infinite number, after all bodies have landed.
     pub(super) fn note_failure(&mut self) {
         if let Some((body, quantity)) = finite::first_not_finite(&self.bodies) {
-            let trouble = Trouble::at(&self.clock, Some(body), Wrong::NotFinite(quantity));
+            let trouble = Trouble::at(&self.clock, Some(body), FailureKind::NotFinite(quantity));
             self.progress.trouble.get_or_insert(trouble);
         }
     }
@@ -176,7 +180,7 @@ impl Trouble {
         let name = |entity: Option<Entity>| world.get::<Name>(entity?).map(Name::to_string);
         let body = name(entity).unwrap_or_default();
         let other = match self.wrong {
-            Wrong::Crossed(other) | Wrong::Behind(other) | Wrong::Sunk(other) => name(Some(other)),
+            FailureKind::Crossed(other) | FailureKind::Behind(other) | FailureKind::Sunk(other) => name(Some(other)),
             _ => None,
         };
         Failure { body, other: other.unwrap_or_default(), wrong: self.wrong, tick: self.tick, time: self.time }

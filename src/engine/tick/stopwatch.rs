@@ -9,7 +9,7 @@ use super::{Evaluate, Modes, SimTick, State};
 
 /// Parts of a tick, in their order.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Part {
+pub enum TickPart {
     /// [`Stage::Begin`](super::Stage::Begin).
     Begin,
     /// [`Modes`]: all models but contact laws.
@@ -36,7 +36,7 @@ pub enum Part {
     Between,
 }
 
-impl Part {
+impl TickPart {
     /// All parts of a tick, in order.
     pub const ALL: [Self; 12] = [
         Self::Begin,
@@ -75,19 +75,19 @@ impl Part {
 /// The time spent in each part of the ticks so far.
 #[derive(Clone, Debug)]
 pub struct Stopwatch {
-    part: Part,
+    part: TickPart,
     since: Instant,
-    spent: [Duration; Part::ALL.len()],
+    spent: [Duration; TickPart::ALL.len()],
 }
 
 impl Stopwatch {
     /// The time spent in a part.
-    pub fn spent(&self, part: Part) -> Duration {
+    pub fn spent(&self, part: TickPart) -> Duration {
         self.spent[part as usize]
     }
 
     /// Counts the time from here on for another part.
-    pub(super) fn turn_to(&mut self, part: Part) {
+    pub(super) fn turn_to(&mut self, part: TickPart) {
         let now = Instant::now();
         self.spent[self.part as usize] += now - self.since;
         (self.part, self.since) = (part, now);
@@ -96,17 +96,18 @@ impl Stopwatch {
 
 /// Starts to measure the ticks of a world. It reads the clock before and after each stage.
 pub fn watch(world: &mut World) {
-    let now = Stopwatch { part: Part::Between, since: Instant::now(), spent: [Duration::ZERO; Part::ALL.len()] };
+    let now =
+        Stopwatch { part: TickPart::Between, since: Instant::now(), spent: [Duration::ZERO; TickPart::ALL.len()] };
     world.resource_mut::<State>().stopwatch = Some(now);
 }
 
 /// The names of the systems and models of each part, in the order in which they run. Only a world that has run at least
 /// one tick has them.
-pub fn systems(world: &World) -> Vec<(Part, Vec<String>)> {
+pub fn systems(world: &World) -> Vec<(TickPart, Vec<String>)> {
     let Some(schedules) = world.get_resource::<Schedules>() else { return Vec::new() };
-    let mut parts: Vec<(Part, Vec<String>)> = Part::ALL.map(|part| (part, Vec::new())).to_vec();
+    let mut parts: Vec<(TickPart, Vec<String>)> = TickPart::ALL.map(|part| (part, Vec::new())).to_vec();
     for (label, first) in
-        [(SimTick.intern(), Part::Begin), (Modes.intern(), Part::Modes), (Evaluate.intern(), Part::Bounds)]
+        [(SimTick.intern(), TickPart::Begin), (Modes.intern(), TickPart::Modes), (Evaluate.intern(), TickPart::Bounds)]
     {
         let mut part = first;
         let Some(Ok(systems)) = schedules.get(label).map(|schedule| schedule.systems()) else { continue };
@@ -115,17 +116,17 @@ pub fn systems(world: &World) -> Vec<(Part, Vec<String>)> {
             part = part_of(&name).unwrap_or(part);
             parts[part as usize].1.push(name);
             // Systems behind the integrator observe.
-            if part == Part::Integrate {
-                part = Part::Observe;
+            if part == TickPart::Integrate {
+                part = TickPart::Observe;
             }
         }
     }
     let state = world.resource::<State>();
     for model in state.models() {
         let part = match (model.contact_law(), model.finds_pairs()) {
-            (Some(_), _) => Part::Contacts,
-            (None, true) => Part::Pairs,
-            (None, false) => Part::Forces,
+            (Some(_), _) => TickPart::Contacts,
+            (None, true) => TickPart::Pairs,
+            (None, false) => TickPart::Forces,
         };
         parts[part as usize].1.push(model.name().to_owned());
     }
@@ -133,15 +134,15 @@ pub fn systems(world: &World) -> Vec<(Part, Vec<String>)> {
 }
 
 /// The part to which a stage of the engine belongs, by the name of its system.
-fn part_of(name: &str) -> Option<Part> {
+fn part_of(name: &str) -> Option<TickPart> {
     let parts = [
-        ("tick::stages::begin_step", Part::Modes),
-        ("tick::stages::update_bounding_boxes", Part::Bounds),
-        ("tick::stages::apply_forces", Part::Forces),
-        ("tick::stages::solve_constraints", Part::Constraints),
-        ("tick::stages::settle", Part::Settle),
-        ("tick::step::integrate", Part::Integrate),
-        ("tick::step::integrate_among_systems", Part::Integrate),
+        ("tick::stages::begin_step", TickPart::Modes),
+        ("tick::stages::update_bounding_boxes", TickPart::Bounds),
+        ("tick::stages::apply_forces", TickPart::Forces),
+        ("tick::stages::solve_constraints", TickPart::Constraints),
+        ("tick::stages::settle", TickPart::Settle),
+        ("tick::step::integrate", TickPart::Integrate),
+        ("tick::step::integrate_among_systems", TickPart::Integrate),
     ];
     parts.into_iter().find(|(end, _)| name.ends_with(end)).map(|(_, part)| part)
 }

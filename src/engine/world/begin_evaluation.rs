@@ -2,12 +2,12 @@
 
 use glam::DVec2;
 
-use super::chunk::{Part, PerBody};
+use super::chunk::{Chunk, PerBody};
 use jostle_simd::{BLOCK, Lanes, Vectors};
 
 /// Resets forces to the weight of each awake body (zero without a field), and moves atoms to their bodies.
 #[derive(Clone)]
-pub(super) struct Pose {
+pub(super) struct BeginEvaluation {
     field: Option<DVec2>,
     sums: Sums,
 }
@@ -20,7 +20,7 @@ struct Sums {
     moment: [DVec2; BLOCK],
 }
 
-impl Pose {
+impl BeginEvaluation {
     pub fn new(field: Option<DVec2>) -> Self {
         Self { field, sums: Sums::default() }
     }
@@ -33,7 +33,7 @@ impl Pose {
 
     /// The forces alone, of bodies at these positions. Bodies that move by forces may have a weight.
     #[inline(always)]
-    pub fn forces<V: Lanes>(&mut self, part: &mut Part, first: usize, place: Vectors<V>, mut moves: V::Mask) {
+    pub fn forces<V: Lanes>(&mut self, part: &mut Chunk, first: usize, place: Vectors<V>, mut moves: V::Mask) {
         let zero = V::splat(0.0);
         zero.store(&mut part.torque[first..]);
         let none = Vectors::of(zero, zero);
@@ -51,15 +51,15 @@ impl Pose {
     }
 }
 
-impl PerBody for Pose {
+impl PerBody for BeginEvaluation {
     #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+    fn bodies<V: Lanes>(&mut self, part: &mut Chunk, first: usize) {
         let (place, moves) = (Vectors::<V>::load(&part.position[first..]), part.moving::<V>(first));
         self.forces(part, first, place, moves);
     }
 
     #[inline(always)]
-    fn atoms<V: Lanes>(&mut self, part: &mut Part, body: usize) {
+    fn atoms<V: Lanes>(&mut self, part: &mut Chunk, body: usize) {
         if !part.lone_discs {
             part.place_atoms::<V>(body);
         }

@@ -16,7 +16,7 @@ const MOST: usize = 16;
 const FETCHED: usize = 6 * BLOCK;
 
 /// Some consecutive bodies with their data. Lists begin at the first of them and have one item for each body.
-pub(crate) struct Part<'a> {
+pub(crate) struct Chunk<'a> {
     /// Place of the first body.
     pub first: usize,
     /// Blocks that need work among all bodies; `None`: all of them.
@@ -63,7 +63,7 @@ pub(crate) fn cut<'a, T>(list: &mut &'a mut [T], count: usize) -> &'a mut [T] {
     front
 }
 
-impl<'a> Part<'a> {
+impl<'a> Chunk<'a> {
     fn whole(bodies: &'a mut Bodies) -> Self {
         Self {
             first: 0,
@@ -226,19 +226,19 @@ impl<'a> Part<'a> {
 /// Work on bodies, one for each lane side by side.
 pub(crate) trait PerBody: Clone + Send {
     /// Does it for the bodies from place `first` of a part on.
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize);
+    fn bodies<V: Lanes>(&mut self, part: &mut Chunk, first: usize);
 
     /// Processes the atoms of a body, several side by side, after [`PerBody::bodies`].
     #[inline(always)]
-    fn atoms<V: Lanes>(&mut self, _: &mut Part, _: usize) {}
+    fn atoms<V: Lanes>(&mut self, _: &mut Chunk, _: usize) {}
 
     /// Prefetches the data of a block of bodies, from index `first` of a part on. The index may be out of range.
     #[inline(always)]
-    fn fetch(_: &Part, _: usize) {}
+    fn fetch(_: &Chunk, _: usize) {}
 }
 
 struct All<'a, W> {
-    part: Part<'a>,
+    part: Chunk<'a>,
     /// Lent, because partial sums are too long to be moved.
     work: &'a mut W,
 }
@@ -286,7 +286,7 @@ pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
 impl Bodies {
     /// Does `work` for some bodies, one by one.
     pub(super) fn each_of<W: PerBody>(&mut self, bodies: &[u32], work: &mut W) {
-        let mut part = Part::whole(self);
+        let mut part = Chunk::whole(self);
         for (number, &body) in bodies.iter().enumerate() {
             if let Some(&body) = bodies.get(number + FETCHED / BLOCK) {
                 W::fetch(&part, body as usize);
@@ -300,12 +300,12 @@ impl Bodies {
         let level = self.level;
         let count = parts_of(self.atom_count().max(self.len()), FEWEST);
         if count == 1 {
-            jostle_simd::run(level, All { part: Part::whole(self), work: &mut work });
+            jostle_simd::run(level, All { part: Chunk::whole(self), work: &mut work });
             return found(&work);
         }
         let each = self.len().div_ceil(count).next_multiple_of(BLOCK);
         let threads = self.threads.clone();
-        let mut rest = Part::whole(self);
+        let mut rest = Chunk::whole(self);
         let mut parts = Vec::with_capacity(count);
         while rest.mass.len() > each {
             parts.push(rest.take(each));

@@ -29,12 +29,12 @@ pub struct Intangible {
 
 /// The corrections of the numbers of shapes, for the notes of the card.
 #[derive(Resource, Clone, Debug, Default)]
-pub struct Mended {
+pub struct MendedShapes {
     /// Each correction with the names of its bodies, in the order of the scene.
     told: Vec<(String, Vec<String>)>,
 }
 
-impl Mended {
+impl MendedShapes {
     /// Adds a correction of the shape of a body, or of the bodies of an entry.
     pub fn add(&mut self, name: &str, correction: String) {
         match self.told.iter_mut().find(|(known, _)| *known == correction) {

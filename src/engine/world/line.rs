@@ -15,7 +15,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Bodies;
 use super::body::mark_changed;
-use super::wall::{Ends, NearestPoint, PackedWall, Wall};
+use super::wall::{NearestPoint, PackedWall, Wall, WallEnds};
 
 /// The points of a [`Wall`] that is a line, in metres. It is open to the left of the way from the first to the last
 /// point. A line is closed if both are the same.
@@ -208,7 +208,7 @@ impl PackedLine {
     /// The position of an atom beside a piece.
     fn seat(&self, walls: &[PackedWall], piece: usize, probe: Probe) -> Seat {
         let wall = &walls[self.first as usize + piece];
-        let Ends { length, half } = wall.ends.unwrap_or(Ends { length: 0.0, half: 0.0 });
+        let WallEnds { length, half } = wall.ends.unwrap_or(WallEnds { length: 0.0, half: 0.0 });
         let from = probe.at - wall.point;
         let back = from.dot(wall.normal.perp());
         let height = from.dot(wall.normal);

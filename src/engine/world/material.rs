@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
-use crate::scene::{Diagnostics, Kind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section};
 
 /// The name of the default material. It always exists, and a scene may redefine it.
 pub const DEFAULT: &str = "default";
@@ -355,14 +355,10 @@ impl Section for MaterialsSection {
     const NAME: &'static str = "materials";
     const EXAMPLE: &'static str = "materials: { \"rock\": (friction: 0.5, restitution: 0.8, density: 2.5) }";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the materials' names.
     fn declare(&self, outline: &mut Outline) {
         for (name, _) in &self.0.0 {
-            outline.declare(Kind::MATERIAL, name, &format!("[\"{name}\"]"));
+            outline.declare(NameKind::MATERIAL, name, &format!("[\"{name}\"]"));
         }
     }
 
@@ -403,10 +399,6 @@ pub struct PairsSection(pub Vec<PairEntry>);
 impl Section for PairsSection {
     const NAME: &'static str = "pairs";
     const EXAMPLE: &'static str = "pairs: [(between: (\"block\", \"rock\"), friction: 0.1)]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports unknown materials, duplicate or empty pairs, and numbers out of range.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
@@ -449,7 +441,7 @@ pub fn require(name: Option<&str>, outline: &Outline, report: &mut Diagnostics) 
 
 fn require_at(name: &str, path: &str, outline: &Outline, report: &mut Diagnostics) {
     if name != DEFAULT {
-        outline.require(Kind::MATERIAL, name, path, report);
+        outline.require(NameKind::MATERIAL, name, path, report);
     }
 }
 

@@ -40,4 +40,4 @@ pub use packed::Bodies;
 pub(crate) use roster::Roster;
 pub use sections::plugin;
 pub use spawn::NewBody;
-pub use wall::{Ends, NearestPoint, PackedWall, Wall};
+pub use wall::{NearestPoint, PackedWall, Wall, WallEnds};

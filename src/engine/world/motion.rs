@@ -5,8 +5,8 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use glam::DVec2;
 
-use super::begin_evaluation::Pose;
-use super::chunk::{Part, PerBody, parts_of};
+use super::begin_evaluation::BeginEvaluation;
+use super::chunk::{Chunk, PerBody, parts_of};
 use super::packed::{Bodies, Moved};
 use jostle_simd::{BLOCK, Kernel, Lanes, Vectors};
 
@@ -70,7 +70,7 @@ impl Bodies {
         }
         let mut travel = Travel::default();
         let mut weighed = (0.0, DVec2::ZERO);
-        let pose = Pose::new(self.field);
+        let pose = BeginEvaluation::new(self.field);
         let owed = self.owed.take();
         let mut advance = Advance { owed, kick, drift, ahead, greatest: [0.0; BLOCK], sum: [0.0; BLOCK], pose };
         let mut found = |part: &Advance| {
@@ -100,7 +100,7 @@ impl Bodies {
         if !std::mem::take(&mut self.posed) {
             self.end_flights();
             let mut weighed = (0.0, DVec2::ZERO);
-            self.each(Pose::new(self.field), |part| part.add_to(&mut weighed));
+            self.each(BeginEvaluation::new(self.field), |part| part.add_to(&mut weighed));
             self.weighed = weighed;
         }
     }
@@ -113,13 +113,13 @@ struct Kick {
 
 impl PerBody for Kick {
     #[inline(always)]
-    fn fetch(part: &Part, first: usize) {
-        Part::fetch_pairs([part.velocity, part.force], first);
-        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
+    fn fetch(part: &Chunk, first: usize) {
+        Chunk::fetch_pairs([part.velocity, part.force], first);
+        Chunk::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
     }
 
     #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+    fn bodies<V: Lanes>(&mut self, part: &mut Chunk, first: usize) {
         let dt = V::splat(self.dt);
         let (inverse_mass, inverse_inertia) = part.inverses::<V>(first);
         let kicked = Vectors::load(&part.velocity[first..]) + Vectors::load(&part.force[first..]) * (inverse_mass * dt);
@@ -138,7 +138,7 @@ struct Advance {
     ahead: Option<f64>,
     greatest: [f64; BLOCK],
     sum: [f64; BLOCK],
-    pose: Pose,
+    pose: BeginEvaluation,
 }
 
 /// A number that changes by a step, and what rounding leaves of that (Kahan 1965).
@@ -151,15 +151,15 @@ fn compensated<N: Copy + Add<Output = N> + Sub<Output = N>>(before: N, rest: N, 
 
 impl PerBody for Advance {
     #[inline(always)]
-    fn fetch(part: &Part, first: usize) {
-        Part::fetch_pairs([part.velocity, part.force, part.position, part.position_residual], first);
-        Part::fetch_pairs([part.estimated_velocity], first);
-        Part::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
-        Part::fetch_numbers([part.angle, part.angle_residual, part.extent, part.estimated_spin], first);
+    fn fetch(part: &Chunk, first: usize) {
+        Chunk::fetch_pairs([part.velocity, part.force, part.position, part.position_residual], first);
+        Chunk::fetch_pairs([part.estimated_velocity], first);
+        Chunk::fetch_numbers([part.mass, part.inertia, part.spin, part.torque], first);
+        Chunk::fetch_numbers([part.angle, part.angle_residual, part.extent, part.estimated_spin], first);
     }
 
     #[inline(always)]
-    fn bodies<V: Lanes>(&mut self, part: &mut Part, first: usize) {
+    fn bodies<V: Lanes>(&mut self, part: &mut Chunk, first: usize) {
         let force = Vectors::load(&part.force[first..]);
         let (torque, (inverse_mass, inverse_inertia)) = (V::load(&part.torque[first..]), part.inverses::<V>(first));
         let (mut velocity, mut spin) = (Vectors::load(&part.velocity[first..]), V::load(&part.spin[first..]));

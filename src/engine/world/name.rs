@@ -5,7 +5,7 @@ use std::sync::Arc;
 
 use bevy_ecs::prelude::*;
 
-use crate::scene::names;
+use crate::scene::name_series;
 
 /// Name of a body or wall in the scene. `to_string()` gives it, and it can be compared with a text. Names of a series,
 /// such as `gas_0` and `gas_1`, share their prefix.
@@ -43,7 +43,7 @@ impl fmt::Display for Name {
         match (&self.text, self.number) {
             (None, _) => Ok(()),
             (Some(text), None) => out.pad(text),
-            (Some(prefix), Some(number)) => out.pad(&names::of_series(prefix, number.into())),
+            (Some(prefix), Some(number)) => out.pad(&name_series::of_series(prefix, number.into())),
         }
     }
 }
@@ -53,7 +53,7 @@ impl PartialEq<str> for Name {
         match (&self.text, self.number) {
             (None, _) => other.is_empty(),
             (Some(text), None) => **text == other,
-            (Some(prefix), Some(number)) => names::in_series(other) == Some((prefix, number.into())),
+            (Some(prefix), Some(number)) => name_series::in_series(other) == Some((prefix, number.into())),
         }
     }
 }

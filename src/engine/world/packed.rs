@@ -37,7 +37,7 @@ pub(crate) enum Moved {
 ///
 /// Lists of bodies have [`Bodies::len`] items, lists of atoms [`Bodies::atom_count`]. A system that writes to the lists
 /// keeps their lengths, because bodies come and go as entities. A run in which a system has changed a length ends with
-/// [`Wrong::Torn`](crate::tick::Wrong::Torn). A model that does so while it acts may panic.
+/// [`FailureKind::Torn`](crate::tick::FailureKind::Torn). A model that does so while it acts may panic.
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Bodies {
     /// A plugin sets this if it changes an input of forces that is no component, such as a setting. Forces are then evaluated

@@ -42,15 +42,15 @@ impl Wall {
     }
 
     /// Its two ends, if it has ends.
-    pub(super) fn ends(&self) -> Option<Ends> {
+    pub(super) fn ends(&self) -> Option<WallEnds> {
         let half = 0.5 * self.thickness?;
-        Some(Ends { length: (self.right - self.left).length(), half })
+        Some(WallEnds { length: (self.right - self.left).length(), half })
     }
 }
 
 /// The ends of a wall.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Ends {
+pub struct WallEnds {
     /// Length of its middle line in metres, from its point along the normal turned counter-clockwise.
     pub length: f64,
     /// Half its thickness in metres.
@@ -67,7 +67,7 @@ pub struct PackedWall {
     /// Unit normal towards the open side.
     pub normal: DVec2,
     /// Its ends, if it has ends: it is then open on both sides.
-    pub ends: Option<Ends>,
+    pub ends: Option<WallEnds>,
     /// The number of its line, if it is a piece of one.
     pub line: Option<u32>,
     /// The index of its material.
@@ -98,7 +98,7 @@ impl PackedWall {
     }
 
     /// The same for a place from the left end.
-    fn nearest_of_strip(&self, from: DVec2, Ends { length, half }: Ends) -> NearestPoint {
+    fn nearest_of_strip(&self, from: DVec2, WallEnds { length, half }: WallEnds) -> NearestPoint {
         let along = self.normal.perp();
         let way = from.dot(along);
         let end = way.clamp(0.0, length);
@@ -121,13 +121,13 @@ impl PackedWall {
 
     /// Centre in metres and radius in metres of one of its round ends: of a wall with ends.
     pub fn end(&self, right: bool) -> (DVec2, f64) {
-        let Ends { length, half } = self.ends.unwrap_or(Ends { length: 0.0, half: 0.0 });
+        let WallEnds { length, half } = self.ends.unwrap_or(WallEnds { length: 0.0, half: 0.0 });
         (self.point + self.normal.perp() * if right { length } else { 0.0 }, half)
     }
 
     /// Whether a point on a straight way between two positions has crossed the middle line of a wall with ends.
     pub fn is_crossed(&self, before: DVec2, now: DVec2) -> bool {
-        let Some(Ends { length, .. }) = self.ends else { return false };
+        let Some(WallEnds { length, .. }) = self.ends else { return false };
         let heights = [before, now].map(|at| (at - self.point).dot(self.normal));
         if (heights[0] < 0.0) == (heights[1] < 0.0) {
             return false;

@@ -12,7 +12,7 @@ use super::lzw::Packer;
 use super::palette::{Histogram, Matcher, Palette};
 use super::partial_file::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
+use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, WrittenFilm, crew};
 use crate::raster::{Painter, View};
 use jostle_frames::frame::Frame;
 
@@ -274,7 +274,7 @@ impl Film for Gif {
         };
         let file = encoder.into_inner().map_err(|cause| self.failed(cause))?;
         let seconds = end(self.frames, self.settings.frames_per_second) / 100.0;
-        let written = Written { path: self.path, frames: self.frames, bytes: file.bytes(), seconds, left_over: 0 };
+        let written = WrittenFilm { path: self.path, frames: self.frames, bytes: file.bytes(), seconds, left_over: 0 };
         Ok(Draft { written, file: Some(file) })
     }
 }

@@ -78,7 +78,7 @@ pub trait Film: Send {
     ///
     /// # Errors
     /// If there is no frame, or the system refuses to write.
-    fn finish(self: Box<Self>) -> Result<Written, OutputError> {
+    fn finish(self: Box<Self>) -> Result<WrittenFilm, OutputError> {
         self.close()?.keep()
     }
 }
@@ -87,7 +87,7 @@ pub trait Film: Send {
 #[derive(Debug)]
 pub struct Draft {
     /// The report of the film, once it has its name.
-    written: Written,
+    written: WrittenFilm,
     /// `None` for an output without a name.
     file: Option<PartFile>,
 }
@@ -102,7 +102,7 @@ impl Draft {
     ///
     /// # Errors
     /// If the system refuses to write.
-    pub fn keep(self) -> Result<Written, OutputError> {
+    pub fn keep(self) -> Result<WrittenFilm, OutputError> {
         let Draft { written, file } = self;
         file.map_or(Ok(()), PartFile::complete)?;
         Ok(written)
@@ -111,7 +111,7 @@ impl Draft {
 
 /// The report of a written film.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Written {
+pub struct WrittenFilm {
     /// The file, or the directory of a sequence.
     pub path: PathBuf,
     /// The number of frames.
@@ -140,27 +140,27 @@ const FORMATS: [&Format; 7] =
 
 /// The path and format of a film.
 #[derive(Clone, Debug)]
-pub struct Target {
+pub struct OutputTarget {
     path: PathBuf,
     format: &'static Format,
 }
 
-impl Target {
+impl OutputTarget {
     /// The target at a path, whose ending gives the format. `film.gif` is a film, and so are `.apng`, `.mp4`, `.webm`
     /// and `.rgba` (raw pictures). `-` is raw pictures to standard output, and `picture.png` is the last frame pushed.
     /// A path that ends with `/`, or an existing directory, is a sequence of `frame_00000.png` and so on.
     ///
     /// # Errors
     /// [`OutputError::UnknownFormat`] names the known endings.
-    pub fn new(path: impl Into<PathBuf>) -> Result<Target, OutputError> {
+    pub fn new(path: impl Into<PathBuf>) -> Result<OutputTarget, OutputError> {
         let path: PathBuf = path.into();
         let name = path.to_string_lossy().to_lowercase();
         let known = FORMATS.into_iter().find(|format| name.ends_with(format.ending));
         match known {
-            _ if path == Path::new(raw::STANDARD_OUTPUT) => Ok(Target { path, format: &raw::FORMAT }),
-            _ if path.is_dir() => Ok(Target { path, format: &png::SEQUENCE }),
-            Some(format) => Ok(Target { path, format }),
-            None => Err(OutputError::UnknownFormat { path, known: Target::endings() }),
+            _ if path == Path::new(raw::STANDARD_OUTPUT) => Ok(OutputTarget { path, format: &raw::FORMAT }),
+            _ if path.is_dir() => Ok(OutputTarget { path, format: &png::SEQUENCE }),
+            Some(format) => Ok(OutputTarget { path, format }),
+            None => Err(OutputError::UnknownFormat { path, known: OutputTarget::endings() }),
         }
     }
 
@@ -195,7 +195,7 @@ impl Target {
 ///
 /// # Errors
 /// If the format does not allow the size or the rate, or the file cannot be created.
-pub fn open(target: &Target, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
+pub fn open(target: &OutputTarget, settings: &FilmSettings, view: View) -> Result<Box<dyn Film>, OutputError> {
     let (width, height) = view.size();
     if width == 0 || height == 0 {
         return Err(OutputError::Size { width, height, longest: 0 });

@@ -10,7 +10,7 @@ use tiny_skia::Pixmap;
 use super::partial_file::{PartFile, Unfinished, sync_folder};
 use super::studio::{Easel, Studio};
 use super::whole::write_whole;
-use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, Written, crew};
+use super::{Draft, Film, FilmSettings, Format, Opened, OutputError, WrittenFilm, crew};
 use crate::raster::{Painter, View};
 use jostle_frames::frame::Frame;
 
@@ -52,7 +52,7 @@ impl Film for Still {
         easel.paint(&painter, &frame);
         let packed = pack(&easel.picture, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
-        let written = Written { path: self.path, frames: 1, bytes: self.file.bytes(), seconds: 0.0, left_over: 0 };
+        let written = WrittenFilm { path: self.path, frames: 1, bytes: self.file.bytes(), seconds: 0.0, left_over: 0 };
         Ok(Draft { written, file: Some(self.file) })
     }
 }
@@ -162,7 +162,7 @@ impl Film for Sequence {
         sync_folder(&self.path).map_err(|cause| OutputError::io(&self.path, cause))?;
         let left_over = (self.frames..).take_while(|index| self.file(*index).exists()).count() as u64;
         let seconds = self.frames as f64 / self.frames_per_second;
-        let written = Written { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over };
+        let written = WrittenFilm { path: self.path, frames: self.frames, bytes: self.bytes, seconds, left_over };
         Ok(Draft { written, file: None })
     }
 }

@@ -7,7 +7,7 @@ use tiny_skia::{Pixmap, PremultipliedColorU8};
 
 use super::partial_file::{PartFile, Unfinished};
 use super::studio::{Easel, Studio};
-use super::{Draft, Film, OutputError, Target, Written, png};
+use super::{Draft, Film, OutputError, OutputTarget, WrittenFilm, png};
 use crate::raster::View;
 use jostle_frames::frame::Frame;
 
@@ -31,7 +31,7 @@ pub fn size(frame: (u32, u32), (columns, rows): (u32, u32)) -> (u64, u64) {
 ///
 /// # Errors
 /// If a sheet of that size cannot be made, or the file cannot be created.
-pub fn open(target: &Target, view: View, (columns, rows): (u32, u32)) -> Result<Box<dyn Film>, OutputError> {
+pub fn open(target: &OutputTarget, view: View, (columns, rows): (u32, u32)) -> Result<Box<dyn Film>, OutputError> {
     let (width, height) = size(view.size(), (columns, rows));
     // No side of so few pixels is longer than 32 bits count.
     let fits = width.saturating_mul(height) <= MOST_PIXELS;
@@ -87,7 +87,7 @@ impl Film for Sheet {
         let packed = png::pack(&self.sheet, &mut Vec::new()).map_err(|cause| OutputError::io(&self.path, cause))?;
         self.file.write_all(&packed).map_err(|cause| OutputError::io(&self.path, cause))?;
         let (frames, bytes) = (u64::from(self.frames), self.file.bytes());
-        let written = Written { path: self.path, frames, bytes, seconds: 0.0, left_over: 0 };
+        let written = WrittenFilm { path: self.path, frames, bytes, seconds: 0.0, left_over: 0 };
         Ok(Draft { written, file: Some(self.file) })
     }
 }

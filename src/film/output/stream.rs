@@ -7,7 +7,7 @@ use std::sync::Arc;
 
 use super::partial_file::PartFile;
 use super::studio::{Easel, Studio};
-use super::{Draft, Film, FilmSettings, OutputError, Written, crew};
+use super::{Draft, Film, FilmSettings, OutputError, WrittenFilm, crew};
 use crate::raster::{Painter, View};
 use jostle_frames::frame::Frame;
 
@@ -120,7 +120,7 @@ impl<S: Sink> Film for Stream<S> {
             return Err(OutputError::NoFrames { path: self.path });
         };
         let Closed { file, bytes, seconds } = sink.close(self.frames)?;
-        let written = Written { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 };
+        let written = WrittenFilm { path: self.path, frames: self.frames, bytes, seconds, left_over: 0 };
         Ok(Draft { written, file })
     }
 }

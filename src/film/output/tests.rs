@@ -6,8 +6,8 @@ use glam::DVec2;
 use tiny_skia::Pixmap;
 
 use super::*;
-use crate::raster::{Bounds, Camera, Painter, Scratch, Theme};
-use jostle_frames::frame::{BodyLook, Cast, Disc, Pose, WallLook};
+use crate::raster::{Camera, Painter, Scratch, Theme, WorldRectangle};
+use jostle_frames::frame::{BodyLook, BodyPose, Cast, Disc, WallLook};
 use jostle_frames::mark::{Mark, MarkShape};
 
 const SIZE: (u32, u32) = (160, 120);
@@ -42,7 +42,7 @@ impl Drop for Folder {
 }
 
 fn view() -> View {
-    let camera = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(4.0, 3.0) }, 0.06, SIZE);
+    let camera = Camera::fit(WorldRectangle { low: DVec2::ZERO, high: DVec2::new(4.0, 3.0) }, 0.06, SIZE);
     View { camera, theme: Theme::named("night").expect("shipped"), frame_step: 0.04, panel: None }
 }
 
@@ -68,7 +68,7 @@ fn frames(count: usize) -> Vec<Frame> {
     let cast = Arc::new(Cast { title: "Test".to_owned(), bodies, walls: vec![floor] });
     let frame = |index: usize| {
         let time = 0.04 * index as f64;
-        let pose = |x, y, angle| Pose { position: DVec2::new(x, y), angle };
+        let pose = |x, y, angle| BodyPose { position: DVec2::new(x, y), angle };
         let poses = vec![pose(2.0, 0.5, 0.0), pose(0.5 + time, 1.5, 2.0 * time), pose(3.5 - time, 2.0, -time)];
         Frame { time, cast: cast.clone(), poses, marks: vec![Mark::plain(MarkShape::Time)], center: None }
     };
@@ -83,10 +83,14 @@ fn drawn(frame: &Frame) -> Pixmap {
 }
 
 fn begin(path: &Path, threads: usize) -> Result<Box<dyn Film>, OutputError> {
-    open(&Target::new(path)?, &FilmSettings { frames_per_second: 30.0, threads, ..FilmSettings::default() }, view())
+    open(
+        &OutputTarget::new(path)?,
+        &FilmSettings { frames_per_second: 30.0, threads, ..FilmSettings::default() },
+        view(),
+    )
 }
 
-fn film(path: &Path, threads: usize, frames: &[Frame]) -> Result<Written, OutputError> {
+fn film(path: &Path, threads: usize, frames: &[Frame]) -> Result<WrittenFilm, OutputError> {
     let mut film = begin(path, threads)?;
     for frame in frames {
         film.push(frame.clone())?;
@@ -179,7 +183,7 @@ fn a_gif_keeps_to_its_limits() {
     let folder = Folder::new("limits");
     let path = folder.path("film.gif");
     let make = |settings: FilmSettings| {
-        let mut film = open(&Target::new(&path).expect("a GIF"), &settings, view())?;
+        let mut film = open(&OutputTarget::new(&path).expect("a GIF"), &settings, view())?;
         frames(60).into_iter().try_for_each(|frame| film.push(frame))?;
         film.finish()
     };
@@ -293,11 +297,11 @@ fn a_still_is_the_last_frame() {
 
 #[test]
 fn wrong_targets_and_settings_are_refused_before_the_run() {
-    let unknown = Target::new("film.avi").expect_err("no such format").to_string();
+    let unknown = OutputTarget::new("film.avi").expect_err("no such format").to_string();
     assert!(unknown.contains("film.avi") && unknown.contains(".gif, .apng, .mp4, .webm, .rgba, .png, /"), "{unknown}");
 
     let folder = Folder::new("refused");
-    let target = Target::new(folder.path("film.gif")).expect("a GIF");
+    let target = OutputTarget::new(folder.path("film.gif")).expect("a GIF");
     for rate in [f64::NAN, 0.0, -30.0, 60.0, f64::INFINITY] {
         let refused = open(&target, &FilmSettings { frames_per_second: rate, ..FilmSettings::default() }, view()).err();
         assert!(matches!(refused, Some(OutputError::Rate { .. })), "{rate}");

@@ -6,23 +6,23 @@ use jostle_frames::frame::Frame;
 
 /// An upright rectangle of the world, in metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct WorldRectangle {
     /// Lower left corner.
     pub low: DVec2,
     /// Upper right corner.
     pub high: DVec2,
 }
 
-impl Bounds {
+impl WorldRectangle {
     /// The smallest rectangle that holds all points; `None` without a finite point.
-    pub fn of_points(points: impl IntoIterator<Item = DVec2>) -> Option<Bounds> {
+    pub fn of_points(points: impl IntoIterator<Item = DVec2>) -> Option<WorldRectangle> {
         let finite = points.into_iter().filter(|point| point.is_finite());
-        finite.map(|point| Bounds { low: point, high: point }).reduce(Bounds::union)
+        finite.map(|point| WorldRectangle { low: point, high: point }).reduce(WorldRectangle::union)
     }
 
     /// The smallest rectangle that holds all discs and hulls of bodies in a frame, and the defining points of walls.
     /// `None` for an empty frame.
-    pub fn of_frame(frame: &Frame) -> Option<Bounds> {
+    pub fn of_frame(frame: &Frame) -> Option<WorldRectangle> {
         let walls = frame
             .cast
             .walls
@@ -37,12 +37,12 @@ impl Bounds {
                 [center - DVec2::splat(radius), center + DVec2::splat(radius)]
             })
         });
-        Bounds::of_points(walls.chain(bodies))
+        WorldRectangle::of_points(walls.chain(bodies))
     }
 
     /// The smallest rectangle that holds both.
-    pub fn union(self, other: Bounds) -> Bounds {
-        Bounds { low: self.low.min(other.low), high: self.high.max(other.high) }
+    pub fn union(self, other: WorldRectangle) -> WorldRectangle {
+        WorldRectangle { low: self.low.min(other.low), high: self.high.max(other.high) }
     }
 }
 
@@ -59,7 +59,7 @@ impl Camera {
     /// of the picture's shorter side, such as 0.05, and is clamped to 0 to 0.45. `size` in pixels, width first.
     ///
     /// Walls fill the area behind them. So in a closed room the margin is the strip of wall at the picture's border.
-    pub fn fit(bounds: Bounds, margin: f64, size: (u32, u32)) -> Camera {
+    pub fn fit(bounds: WorldRectangle, margin: f64, size: (u32, u32)) -> Camera {
         let picture = DVec2::new(f64::from(size.0), f64::from(size.1));
         let margin = if margin.is_finite() { margin.clamp(0.0, 0.45) } else { 0.0 };
         let room = picture - 2.0 * margin * picture.min_element();
@@ -110,9 +110,9 @@ impl Camera {
     }
 
     /// The part of the world in the picture, in metres.
-    pub fn view(&self) -> Bounds {
+    pub fn view(&self) -> WorldRectangle {
         let half = 0.5 * DVec2::new(f64::from(self.size.0), f64::from(self.size.1)) / self.pixels_per_meter;
-        Bounds { low: self.center - half, high: self.center + half }
+        WorldRectangle { low: self.center - half, high: self.center + half }
     }
 }
 
@@ -126,13 +126,13 @@ mod tests {
 
     #[test]
     fn fit_centres_the_bounds_and_leaves_the_margin() {
-        let bounds = Bounds { low: DVec2::ZERO, high: DVec2::new(6.0, 6.0) };
+        let bounds = WorldRectangle { low: DVec2::ZERO, high: DVec2::new(6.0, 6.0) };
         let camera = Camera::fit(bounds, 0.05, (1280, 720));
         assert!(close(camera.to_picture(DVec2::new(3.0, 3.0)), DVec2::new(640.0, 360.0)));
         // A margin of 36 of 720 pixels above and below; the y axis turns over.
         assert!(close(camera.to_picture(DVec2::new(3.0, 6.0)), DVec2::new(640.0, 36.0)));
         assert!(close(camera.to_picture(DVec2::new(3.0, 0.0)), DVec2::new(640.0, 684.0)));
-        let wide = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(100.0, 1.0) }, 0.1, (1000, 500));
+        let wide = Camera::fit(WorldRectangle { low: DVec2::ZERO, high: DVec2::new(100.0, 1.0) }, 0.1, (1000, 500));
         assert!(close(wide.to_picture(DVec2::ZERO), DVec2::new(50.0, 254.5)));
     }
 
@@ -146,7 +146,7 @@ mod tests {
 
     #[test]
     fn a_point_or_a_wild_margin_still_gives_a_picture() {
-        let point = Bounds { low: DVec2::ONE, high: DVec2::ONE };
+        let point = WorldRectangle { low: DVec2::ONE, high: DVec2::ONE };
         for margin in [0.0, 0.9, f64::NAN, -1.0] {
             let camera = Camera::fit(point, margin, (100, 50));
             assert!(close(camera.to_picture(DVec2::ONE), DVec2::new(50.0, 25.0)));
@@ -157,8 +157,8 @@ mod tests {
     #[test]
     fn bounds_skip_what_is_not_finite() {
         let points = [DVec2::new(f64::NAN, 0.0), DVec2::new(1.0, 2.0), DVec2::new(-1.0, 5.0)];
-        let bounds = Bounds::of_points(points).expect("two finite points");
+        let bounds = WorldRectangle::of_points(points).expect("two finite points");
         assert_eq!((bounds.low, bounds.high), (DVec2::new(-1.0, 2.0), DVec2::new(1.0, 5.0)));
-        assert_eq!(Bounds::of_points([DVec2::INFINITY]), None);
+        assert_eq!(WorldRectangle::of_points([DVec2::INFINITY]), None);
     }
 }

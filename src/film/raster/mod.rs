@@ -17,7 +17,7 @@ use std::sync::Arc;
 
 use tiny_skia::Pixmap;
 
-pub use camera::{Bounds, Camera};
+pub use camera::{Camera, WorldRectangle};
 pub use plots::{Diagram, Look, Panel, Sign, Spot, draw_diagram, figure};
 pub use theme::{Swatch, Theme, Tint};
 

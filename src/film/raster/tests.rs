@@ -1,7 +1,7 @@
 use glam::DVec2;
 
 use super::*;
-use jostle_frames::frame::{BodyLook, Disc, Pose, WallLook};
+use jostle_frames::frame::{BodyLook, BodyPose, Disc, WallLook};
 use jostle_frames::mark::{Corner, Mark};
 
 fn ball(name: &str, fixed: bool) -> BodyLook {
@@ -9,8 +9,8 @@ fn ball(name: &str, fixed: bool) -> BodyLook {
     BodyLook { name: name.to_owned(), discs, hulls: Vec::new(), color: None, fixed }
 }
 
-fn pose(x: f64, y: f64) -> Pose {
-    Pose { position: DVec2::new(x, y), angle: 0.0 }
+fn pose(x: f64, y: f64) -> BodyPose {
+    BodyPose { position: DVec2::new(x, y), angle: 0.0 }
 }
 
 /// A peg at (1, 3) and a ball at (4, 2) over a floor.
@@ -35,7 +35,7 @@ fn frame() -> Frame {
 }
 
 fn view() -> View {
-    let camera = Camera::fit(Bounds { low: DVec2::ZERO, high: DVec2::new(6.0, 4.0) }, 0.1, (240, 180));
+    let camera = Camera::fit(WorldRectangle { low: DVec2::ZERO, high: DVec2::new(6.0, 4.0) }, 0.1, (240, 180));
     View { camera, theme: Theme::named("paper").expect("shipped"), frame_step: 0.01, panel: None }
 }
 

@@ -3,7 +3,7 @@
 pub mod curve_names;
 mod decimate;
 mod legend;
-pub mod pairs;
+pub mod phase_portrait;
 pub mod table;
 
 pub use curve_names::{common, headed, with_unit};

@@ -1,9 +1,9 @@
 //! Entries that name a file beside the scene. The owner of the entry reads the file, and its content joins the entry.
 
 use super::emit::{Context, WORK};
-use super::write::Buffer;
+use super::expansion::Buffer;
 use super::{Expander, Outcome};
-use crate::embed::Unfit;
+use crate::embed::UnfitFile;
 use crate::syntax::Id;
 
 impl Expander {
@@ -28,15 +28,16 @@ impl Expander {
         let name = known.place.field().map_or(0, |_| known.name.len());
         let entry = format!("{})", &out.text[start + name..]);
         let folder = context.file.source.folder.as_deref();
-        let read =
-            self.readers[reader].1.embed(&entry, folder, &self.door).map_err(|Unfit { message, help, field }| {
+        let read = self.readers[reader].1.embed(&entry, folder, &self.door).map_err(
+            |UnfitFile { message, help, field }| {
                 let (tree, text) = (&context.file.tree, &context.file.source.text);
                 let at = self.field(context, id, field).unwrap_or(id);
                 let mut error = self.wrong(context, tree.head_or_value(at), message);
                 error.path = tree.path(at, text);
                 error.label = "this value".into();
                 Box::new(error.with_help(help))
-            })?;
+            },
+        )?;
         let Some(read) = read else {
             for field in known.required {
                 self.required(context, id, field, known.example)?;

@@ -7,10 +7,10 @@ use std::path::{Path, PathBuf};
 use crate::source::Source;
 
 /// The mistake in a file, and the remedy.
-pub type Wrong = (String, String);
+pub type FileMistake = (String, String);
 
 /// A mistake in a sentence.
-pub fn told((message, help): Wrong) -> String {
+pub fn told((message, help): FileMistake) -> String {
     if help.is_empty() { message } else { format!("{message}; {help}") }
 }
 
@@ -32,7 +32,7 @@ impl Door {
 
     /// Admits a file that messages call `name`, unless the scene may not read it. The reader of the file reports an
     /// absent one.
-    pub fn admit(&self, path: &Path, name: &str) -> Result<(), Wrong> {
+    pub fn admit(&self, path: &Path, name: &str) -> Result<(), FileMistake> {
         let Ok(real) = path.canonicalize() else { return Ok(()) };
         let folder = real.parent().unwrap_or(&real);
         if self.home.as_ref().is_some_and(|home| !folder.starts_with(home) && !home.starts_with(folder)) {
@@ -57,7 +57,7 @@ impl Door {
 }
 
 /// The description of a file that an entry names.
-pub struct Wanted {
+pub struct FileRequest {
     /// The largest file, in bytes.
     pub most: u64,
     /// The expected kind of file, for the message about a folder: `a PNG picture`.
@@ -66,15 +66,15 @@ pub struct Wanted {
     pub smaller: &'static str,
 }
 
-impl Wanted {
+impl FileRequest {
     /// Reads the file that a scene names, at a path that messages call `name`.
-    pub fn read(&self, door: &Door, path: &Path, name: &str) -> Result<Vec<u8>, Wrong> {
+    pub fn read(&self, door: &Door, path: &Path, name: &str) -> Result<Vec<u8>, FileMistake> {
         door.admit(path, name)?;
         self.take(path, name, "the path begins at the folder of the file in which this stands")
     }
 
     /// Reads a file; `here` is the beginning of its path.
-    pub fn take(&self, path: &Path, name: &str, here: &str) -> Result<Vec<u8>, Wrong> {
+    pub fn take(&self, path: &Path, name: &str, here: &str) -> Result<Vec<u8>, FileMistake> {
         match std::fs::metadata(path) {
             Err(error) if error.kind() == std::io::ErrorKind::NotFound => {
                 return Err((format!("there is no file `{name}`"), here.to_owned()));
@@ -89,7 +89,7 @@ impl Wanted {
     }
 
     /// All that a reader gives.
-    pub fn bytes(&self, reader: impl Read, name: &str) -> Result<Vec<u8>, Wrong> {
+    pub fn bytes(&self, reader: impl Read, name: &str) -> Result<Vec<u8>, FileMistake> {
         let mut bytes = Vec::new();
         reader.take(self.most + 1).read_to_end(&mut bytes).map_err(|error| self.unreadable(name, &error))?;
         if bytes.len() as u64 > self.most {
@@ -98,7 +98,7 @@ impl Wanted {
         Ok(bytes)
     }
 
-    fn unreadable(&self, name: &str, error: &std::io::Error) -> Wrong {
+    fn unreadable(&self, name: &str, error: &std::io::Error) -> FileMistake {
         let help = format!("check the path and its permissions, and that it is {}", self.noun);
         (format!("cannot read `{name}`: {error}"), help)
     }

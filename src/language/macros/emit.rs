@@ -3,10 +3,10 @@
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
+use super::expansion::Buffer;
 use super::formula::Formula;
 use super::scope::{Failed, Filled, Value, is_quantity};
-use super::write::Buffer;
-use super::{Expander, File, Outcome, Reader, table};
+use super::{Expander, File, Outcome, Reader, table_file};
 use crate::lexer::skip_blank;
 use crate::outline::fits;
 use crate::syntax::{Form, Id, Tree};
@@ -118,7 +118,7 @@ pub(super) fn plain(tree: &Tree, text: &str, readers: &[Reader]) -> Vec<bool> {
         let name = tree.name(id, text);
         let read = |(known, _): &Reader| known.place.field().is_some() && known.name == name;
         let changes =
-            tree.node(id).form == Form::Text || matches!(name, "Repeat" | table::NAME) || readers.iter().any(read);
+            tree.node(id).form == Form::Text || matches!(name, "Repeat" | table_file::NAME) || readers.iter().any(read);
         plain[id as usize] = !changes && tree.children(id).iter().all(|&child| plain[child as usize]);
     }
     plain
@@ -201,7 +201,7 @@ impl Expander {
                 out.verbatim(&file, span.end - 1..span.end, context.step);
                 Ok(())
             }
-            Form::Round if table::FIELDS.contains(&key) && tree.name(id, text) == table::NAME => {
+            Form::Round if table_file::FIELDS.contains(&key) && tree.name(id, text) == table_file::NAME => {
                 self.table(context, out, id)
             }
             Form::Round if Self::is_heights(context, id, key) => self.heights(context, out, id),

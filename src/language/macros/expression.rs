@@ -10,13 +10,13 @@ use crate::units::{self, Powers};
 
 /// The mistake in an expression, and its place in the text.
 #[derive(Clone, Debug, PartialEq)]
-pub(super) struct Wrong {
+pub(super) struct FormulaMistake {
     pub(super) range: Range<usize>,
     pub(super) message: String,
     pub(super) help: Option<String>,
 }
 
-type Outcome = Result<Number, Wrong>;
+type Outcome = Result<Number, FormulaMistake>;
 
 /// Gives the value of a name, or the reason why it has none.
 pub(super) type LookUp<'a> = &'a mut dyn FnMut(&str) -> Result<Number, (String, Option<String>)>;
@@ -89,8 +89,8 @@ pub(super) fn name_length(text: &str) -> usize {
     text.find(|c: char| !letter(c) && !c.is_ascii_digit()).unwrap_or(text.len())
 }
 
-fn wrong(range: Range<usize>, message: impl Into<String>, help: Option<String>) -> Wrong {
-    Wrong { range, message: message.into(), help }
+fn wrong(range: Range<usize>, message: impl Into<String>, help: Option<String>) -> FormulaMistake {
+    FormulaMistake { range, message: message.into(), help }
 }
 
 /// The meaning of an operator of other languages.
@@ -165,7 +165,7 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn since(&self, start: usize, message: String) -> Wrong {
+    fn since(&self, start: usize, message: String) -> FormulaMistake {
         let end = self.text[..self.at].trim_end().len();
         wrong(start..end, message, None)
     }
@@ -303,7 +303,7 @@ impl Reader<'_> {
     }
 
     /// An operator of another language, if it is next.
-    fn unknown_sign(&self) -> Option<Wrong> {
+    fn unknown_sign(&self) -> Option<FormulaMistake> {
         let rest = self.text[self.at..].trim_start();
         let start = self.text.len() - rest.len();
         let help = slip(rest)?;

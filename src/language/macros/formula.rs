@@ -4,7 +4,7 @@
 
 use std::borrow::Cow;
 
-use super::expression::{self, Names, Wrong};
+use super::expression::{self, FormulaMistake, Names};
 use super::quantity::Number;
 use crate::units::{self, Powers};
 
@@ -22,7 +22,7 @@ pub struct Mistake {
 }
 
 /// The value of a name, and the symbol of its unit.
-pub type Known<'a> = (f64, &'a str);
+pub type NamedValue<'a> = (f64, &'a str);
 
 impl Formula {
     /// A formula as it is written. It is looked at when it is asked for its value.
@@ -73,7 +73,7 @@ impl Formula {
     ///
     /// # Errors
     /// Its first mistake.
-    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<Known<'a>>) -> Result<(f64, Powers), Mistake> {
+    pub fn value<'a>(&self, mut value: impl FnMut(&str) -> Option<NamedValue<'a>>) -> Result<(f64, Powers), Mistake> {
         let number = expression::work_out(&self.0, Names::Dotted, &mut |name| {
             let (value, unit) = value(name).ok_or_else(|| (format!("`{name}` has no value"), None))?;
             let (factor, powers) = units::value_in("1", unit).map_err(|why| (why, None))?;
@@ -88,7 +88,7 @@ impl Formula {
         wanted.iter().find(has).map_or_else(|| units::base_units(powers).into(), |symbol| (*symbol).into())
     }
 
-    fn mistake(&self, Wrong { range, message, help }: Wrong) -> Mistake {
+    fn mistake(&self, FormulaMistake { range, message, help }: FormulaMistake) -> Mistake {
         let part = self.0.get(range).filter(|part| !part.is_empty() && *part != self.0);
         let message = part.map_or(message.clone(), |part| format!("in `{part}`: {message}"));
         Mistake { message, help }

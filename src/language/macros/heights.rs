@@ -4,10 +4,10 @@
 use std::fmt::Write;
 
 use super::emit::{Context, WORK};
+use super::expansion::Buffer;
 use super::quantity::Number;
 use super::scope::{Scope, Value};
-use super::table::{Columns, Words};
-use super::write::Buffer;
+use super::table_file::{Columns, Words};
 use super::{Expander, Outcome};
 use crate::count;
 use crate::syntax::{Form, Id};

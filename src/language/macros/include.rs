@@ -5,8 +5,8 @@ use std::path::PathBuf;
 use std::rc::Rc;
 
 use super::emit::{Context, Place};
+use super::expansion::Merged;
 use super::scope::Scope;
-use super::write::Merged;
 use super::{Cause, Expander, File, MOST_FILES, Outcome, SECTIONS};
 use crate::error::SceneError;
 use crate::lexer::lex;

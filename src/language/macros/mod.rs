@@ -9,6 +9,7 @@
 mod beside;
 mod door;
 mod emit;
+mod expansion;
 mod expression;
 mod formula;
 mod heights;
@@ -18,8 +19,7 @@ mod quantity;
 mod repeat;
 mod scope;
 mod source_map;
-mod table;
-mod write;
+mod table_file;
 
 use std::any::Any;
 use std::collections::{BTreeMap, BTreeSet};
@@ -33,12 +33,12 @@ use super::lexer::{Lexed, lex};
 use super::source::{LARGEST_SCENE, Source};
 use super::suggest;
 use super::syntax::{Form, Id, Tree};
-pub use door::{Door, Wanted, told};
+pub use door::{Door, FileRequest, told};
 use emit::{Context, Place};
+use expansion::{Buffer, Merged};
 pub use formula::{Formula, Mistake};
 use instance::Template;
 use scope::Scope;
-use write::{Buffer, Merged};
 
 /// The sections that are replaced by their results.
 pub(super) const SECTIONS: [&str; 4] = ["include", "params", "templates", "instances"];
@@ -97,7 +97,7 @@ pub(super) struct Expanded {
     pub(super) opened: Vec<PathBuf>,
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
-    pieces: Vec<write::Piece>,
+    pieces: Vec<expansion::Piece>,
     /// The reason for which a text is no expression, by file and place.
     reasons: BTreeMap<(usize, usize), SceneError>,
 }
@@ -113,7 +113,7 @@ pub(super) fn is_wanted(source: &Source, tree: &Tree, embeddings: &[Embedding]) 
         || source.text.contains("Repeat")
         || source.text.contains("repeat(")
         || embeddings.iter().any(|known| known.place.field().is_some() && source.text.contains(known.name))
-        || source.text.contains(table::NAME)
+        || source.text.contains(table_file::NAME)
         || source.text.contains(heights::FIELD)
         || (0..tree.next()).any(|id| tree.node(id).form == Form::Text && is_expression(&source.text[tree.span(id)]))
 }

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::emit::{Context, WORK, WORK_OF_TEXT};
-use super::expression::{self, Wrong};
+use super::expression::{self, FormulaMistake};
 use super::quantity::Number;
 use super::{Expander, Outcome};
 use crate::error::SceneError;
@@ -249,7 +249,7 @@ impl Expander {
     /// `bob_{i}`: texts with expressions in braces; `{{` and `}}` are braces.
     fn fill_in(&mut self, scope: usize, text: &str, asked: &mut Vec<(usize, String)>) -> Result<Filled, Failed> {
         let here = |range, message: &str, help: &str| {
-            Failed::Here(Wrong { range, message: message.to_owned(), help: Some(help.to_owned()) })
+            Failed::Here(FormulaMistake { range, message: message.to_owned(), help: Some(help.to_owned()) })
         };
         let mut filled = String::new();
         let mut given = false;
@@ -265,7 +265,7 @@ impl Expander {
             let end = text[brace..].find('}').filter(|length| *length > 0).map(|length| brace + length);
             let Some(end) = end else { return Err(here(brace..brace + 1, "this brace stands alone", help)) };
             let inner = &text[brace + 1..end];
-            let shift = |mut wrong: Wrong| {
+            let shift = |mut wrong: FormulaMistake| {
                 wrong.range = wrong.range.start + brace + 1..wrong.range.end + brace + 1;
                 Failed::Here(wrong)
             };
@@ -340,7 +340,13 @@ impl Expander {
 
     /// A mistake inside an expression, under its own letters. `shift` is the first byte of its text in the file, if the
     /// file holds the text unchanged.
-    pub(super) fn wrong_expression(&self, context: &Context, id: Id, shift: Option<usize>, wrong: Wrong) -> SceneError {
+    pub(super) fn wrong_expression(
+        &self,
+        context: &Context,
+        id: Id,
+        shift: Option<usize>,
+        wrong: FormulaMistake,
+    ) -> SceneError {
         let whole = context.file.tree.span(id);
         let span = match shift {
             Some(shift) if !wrong.range.is_empty() => wrong.range.start + shift..wrong.range.end + shift,
@@ -356,12 +362,12 @@ impl Expander {
 
 /// The reason why a text has no value: a mistake in the text, or in a parameter that it uses.
 pub(super) enum Failed {
-    Here(Wrong),
+    Here(FormulaMistake),
     Elsewhere(Box<SceneError>),
 }
 
 impl Failed {
-    fn into_error(self, here: impl FnOnce(Wrong) -> Box<SceneError>) -> Box<SceneError> {
+    fn into_error(self, here: impl FnOnce(FormulaMistake) -> Box<SceneError>) -> Box<SceneError> {
         match self {
             Self::Here(wrong) => here(wrong),
             Self::Elsewhere(error) => error,

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 use std::ops::Range;
 
-use super::write::Piece;
+use super::expansion::Piece;
 use super::{Cause, Expanded, Step};
 use crate::error::{Mark, SceneError, SceneErrors};
 use crate::source::Source;

@@ -95,10 +95,7 @@ fn name_structures(schema: &mut Value, structures: &[String]) {
 impl Language {
     /// The entries that need no field.
     fn bare_words(&self, entries: &[Entry]) -> Vec<&'static str> {
-        let needs_none = |entry: &&Entry| {
-            let about = entry.schema.as_ref().map(|schema| self.resolve(schema).1);
-            about.is_none_or(|about| about["required"].is_null())
-        };
+        let needs_none = |entry: &&Entry| self.resolve(&entry.schema).1["required"].is_null();
         entries.iter().filter(needs_none).map(|entry| entry.name).collect()
     }
 
@@ -106,11 +103,10 @@ impl Language {
     fn complete_templates(&self, schema: &mut Value) {
         let held = self.sections.iter().filter(|section| match &section.content {
             Content::Entries(arity, _) => *arity == Arity::List && !section.name.contains('.'),
-            Content::Value(Some(schema)) => {
+            Content::Value(schema) => {
                 let (_, about) = self.resolve(schema);
                 about["type"] == "array" && about["prefixItems"].is_null() || about["additionalProperties"].is_object()
             }
-            Content::Value(None) => true,
         });
         let template = &mut schema["$defs"]["Template"];
         template["additionalProperties"] = Value::Bool(false);
@@ -126,8 +122,7 @@ impl Language {
 impl Section {
     fn json(&self, language: &Language) -> Value {
         match &self.content {
-            Content::Value(Some(schema)) => schema.clone(),
-            Content::Value(None) => json!({ "description": "It has no described fields." }),
+            Content::Value(schema) => schema.clone(),
             Content::Entries(arity, entries) => {
                 let one = one_of_the(entries);
                 match arity {
@@ -147,7 +142,7 @@ impl Section {
 
 /// `{"Drag": {..}}`: an object of exactly one field. Editors complete that better than a choice of objects.
 fn one_of_the(entries: &[Entry]) -> Value {
-    let field = |entry: &Entry| (entry.name.to_owned(), entry.schema.clone().unwrap_or(Value::Bool(true)));
+    let field = |entry: &Entry| (entry.name.to_owned(), entry.schema.clone());
     let properties: Map<String, Value> = entries.iter().map(field).collect();
     json!({
         "type": "object",

@@ -8,7 +8,7 @@ use std::borrow::Cow;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::ser::{Serialize, SerializeTuple, Serializer};
 
-use crate::units::{Dimension, Pair, Quantity, plain_name, unit_of};
+use crate::units::{Dimension, Quantity, QuantityPair, plain_name, unit_of};
 use crate::values::{Elsewhere, Names, OrderedMap, WholeNumber, Word};
 
 /// `a moment of inertia` as `moment_of_inertia`.
@@ -23,7 +23,7 @@ impl<D> Serialize for Quantity<D> {
     }
 }
 
-impl<D> Serialize for Pair<D> {
+impl<D> Serialize for QuantityPair<D> {
     fn serialize<S: Serializer>(&self, writer: S) -> Result<S::Ok, S::Error> {
         let mut pair = writer.serialize_tuple(2)?;
         pair.serialize_element(&self.x)?;
@@ -56,7 +56,7 @@ impl<D: Dimension> JsonSchema for Quantity<D> {
     }
 }
 
-impl<D: Dimension> JsonSchema for Pair<D> {
+impl<D: Dimension> JsonSchema for QuantityPair<D> {
     fn schema_name() -> Cow<'static, str> {
         format!("{}_pair", identifier::<D>()).into()
     }

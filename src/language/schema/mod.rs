@@ -9,7 +9,7 @@ mod choices;
 mod json;
 mod json_instance;
 mod kinds;
-mod made;
+mod macro_forms;
 mod manual;
 mod tidy;
 
@@ -23,8 +23,8 @@ use serde_json::{Map, Value};
 
 use super::registry::{Arity, Reader, Registry};
 
-/// The function that gives the schema of a type; `None` if it has none.
-pub type Describe = fn(&mut SchemaGenerator) -> Option<Schema>;
+/// The function that gives the schema of a type.
+pub type Describe = fn(&mut SchemaGenerator) -> Schema;
 
 /// The scene language of a program with its plugins.
 #[derive(Clone, Debug)]
@@ -47,8 +47,8 @@ struct Section {
 
 #[derive(Clone, Debug)]
 enum Content {
-    /// A value of one type; `None` if the type has no schema.
-    Value(Option<Value>),
+    /// A value of one type.
+    Value(Value),
     Entries(Arity, Vec<Entry>),
 }
 
@@ -56,7 +56,7 @@ enum Content {
 struct Entry {
     name: &'static str,
     example: &'static str,
-    schema: Option<Value>,
+    schema: Value,
 }
 
 /// The sections that the reader itself reads. The type is only described, never made.
@@ -79,12 +79,12 @@ impl Language {
     /// Asks everything that is registered for its schema.
     pub fn of<A>(registry: &Registry<A>) -> Self {
         let mut generator = SchemaSettings::draft2020_12().into_generator();
-        let mut tell = |describe: Describe| describe(&mut generator).map(Value::from);
+        let mut tell = |describe: Describe| Value::from(describe(&mut generator));
         let mut sections = Vec::new();
         for (name, section) in registry.readers() {
             let content = match &section.reader {
                 Reader::Reserved => continue,
-                Reader::Section(_) => Content::Value(tell(section.describe)),
+                Reader::Section(_, describe) => Content::Value(tell(*describe)),
                 Reader::Entries(arity, entries) => {
                     let mut list: Vec<_> = entries.iter().filter(|(_, entry)| entry.make.is_some()).collect();
                     list.sort_unstable_by_key(|(_, entry)| entry.order);
@@ -100,12 +100,12 @@ impl Language {
             sections.push(Section { name: name.to_owned(), example: section.example, meaning, content });
         }
         let head = fields(&Value::from(generator.root_schema_for::<Head>()), &HEAD_EXAMPLES);
-        let made = fields(&Value::from(generator.root_schema_for::<made::Made>()), &made::EXAMPLES);
+        let made = fields(&Value::from(generator.root_schema_for::<macro_forms::Made>()), &macro_forms::EXAMPLES);
         let repeat = Section {
             name: "Repeat".to_owned(),
-            example: made::REPEAT_EXAMPLE,
+            example: macro_forms::REPEAT_EXAMPLE,
             meaning: String::new(),
-            content: Content::Value(Some(generator.subschema_for::<made::Repeat>().into())),
+            content: Content::Value(generator.subschema_for::<macro_forms::Repeat>().into()),
         };
         let sections = head.into_iter().chain(sections).chain(made).collect();
         let mut language = Self { sections, repeat, definitions: generator.take_definitions(true) };
@@ -144,7 +144,7 @@ impl Language {
     fn field_of(&self, list: &str) -> Option<(String, String)> {
         let (section, field) = list.split_once('.')?;
         let section = self.sections.iter().find(|other| other.name == section)?;
-        let Content::Value(Some(schema)) = &section.content else { return None };
+        let Content::Value(schema) = &section.content else { return None };
         let (definition, about) = self.resolve(schema);
         about["properties"][field].is_object().then_some((definition?.to_owned(), field.to_owned()))
     }
@@ -162,8 +162,8 @@ impl Language {
     fn schemas(&mut self) -> impl Iterator<Item = &mut Value> {
         let sections = self.sections.iter_mut().chain([&mut self.repeat]);
         let of_sections = sections.flat_map(|section| match &mut section.content {
-            Content::Value(schema) => schema.iter_mut().collect::<Vec<_>>(),
-            Content::Entries(_, entries) => entries.iter_mut().filter_map(|entry| entry.schema.as_mut()).collect(),
+            Content::Value(schema) => vec![schema],
+            Content::Entries(_, entries) => entries.iter_mut().map(|entry| &mut entry.schema).collect(),
         });
         of_sections.chain(self.definitions.values_mut())
     }
@@ -176,7 +176,7 @@ fn fields(schema: &Value, examples: &[&'static str]) -> Vec<Section> {
         name: name.clone(),
         example,
         meaning: String::new(),
-        content: Content::Value(Some(schema.clone())),
+        content: Content::Value(schema.clone()),
     };
     fields.map(section).collect()
 }

@@ -21,7 +21,7 @@
 
 mod either;
 mod read;
-mod table;
+mod unit_table;
 
 use std::fmt;
 use std::marker::PhantomData;
@@ -126,14 +126,14 @@ impl<D> From<Quantity<D>> for f64 {
 }
 
 /// Two quantities of one dimension, written `(x, y)`; each may have its own unit.
-pub struct Pair<D> {
+pub struct QuantityPair<D> {
     /// The first.
     pub x: Quantity<D>,
     /// The second.
     pub y: Quantity<D>,
 }
 
-impl<D> Pair<D> {
+impl<D> QuantityPair<D> {
     /// A pair from its values in SI units.
     pub const fn new(x: f64, y: f64) -> Self {
         Self { x: Quantity::new(x), y: Quantity::new(y) }
@@ -145,27 +145,27 @@ impl<D> Pair<D> {
     }
 }
 
-impl<D> Clone for Pair<D> {
+impl<D> Clone for QuantityPair<D> {
     fn clone(&self) -> Self {
         *self
     }
 }
 
-impl<D> Copy for Pair<D> {}
+impl<D> Copy for QuantityPair<D> {}
 
-impl<D> Default for Pair<D> {
+impl<D> Default for QuantityPair<D> {
     fn default() -> Self {
         Self::new(0.0, 0.0)
     }
 }
 
-impl<D> PartialEq for Pair<D> {
+impl<D> PartialEq for QuantityPair<D> {
     fn eq(&self, other: &Self) -> bool {
         self.x == other.x && self.y == other.y
     }
 }
 
-impl<D> fmt::Debug for Pair<D> {
+impl<D> fmt::Debug for QuantityPair<D> {
     fn fmt(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         fmt::Debug::fmt(&(self.x, self.y), formatter)
     }
@@ -231,10 +231,10 @@ dimensions! {
 }
 
 /// A place or distance `(x, y)`, in m.
-pub type Position = Pair<dimension::OfLength>;
+pub type LengthPair = QuantityPair<dimension::OfLength>;
 /// A velocity `(x, y)`, in m/s.
-pub type Velocity = Pair<dimension::OfSpeed>;
+pub type SpeedPair = QuantityPair<dimension::OfSpeed>;
 /// An acceleration `(x, y)`, in m/s2.
-pub type AccelerationPair = Pair<dimension::OfAcceleration>;
+pub type AccelerationPair = QuantityPair<dimension::OfAcceleration>;
 /// A force `(x, y)`, in N.
-pub type ForcePair = Pair<dimension::OfForce>;
+pub type ForcePair = QuantityPair<dimension::OfForce>;

@@ -5,7 +5,7 @@ use std::marker::PhantomData;
 
 use serde::de::{self, Deserialize, Deserializer, SeqAccess, Visitor};
 
-use super::{Dimension, KNOWN, Pair, Powers, Quantity, table};
+use super::{Dimension, KNOWN, Powers, Quantity, QuantityPair, unit_table};
 
 /// Reads a number with a unit into SI units.
 ///
@@ -49,7 +49,7 @@ pub(crate) fn is_quantity(text: &str) -> bool {
 
 /// Whether a word is the symbol of a unit, with or without a prefix.
 pub(crate) fn is_unit(symbol: &str) -> bool {
-    table::find(symbol).is_some()
+    unit_table::find(symbol).is_some()
 }
 
 /// The length of the number at the beginning of a text.
@@ -132,8 +132,8 @@ fn product(text: &str) -> Result<Size, String> {
 
 fn multiply(size: &mut Size, factor: &str, divides: bool) -> Result<(), String> {
     let (symbol, power) = split_power(factor).ok_or_else(|| format!("`{factor}` is not a unit"))?;
-    let Some((unit, prefix)) = table::find(symbol) else {
-        let meant = table::meant(symbol).map(|meant| format!(" (did you mean `{meant}`?)"));
+    let Some((unit, prefix)) = unit_table::find(symbol) else {
+        let meant = unit_table::meant(symbol).map(|meant| format!(" (did you mean `{meant}`?)"));
         return Err(format!("unknown unit `{symbol}`{}", meant.unwrap_or_default()));
     };
     let power = if divides { -power } else { power };
@@ -226,15 +226,15 @@ impl<'de, D: Dimension> Deserialize<'de> for Quantity<D> {
 struct Two<D>(PhantomData<fn() -> D>);
 
 impl<'de, D: Dimension> Visitor<'de> for Two<D> {
-    type Value = Pair<D>;
+    type Value = QuantityPair<D>;
 
     fn expecting(&self, formatter: &mut fmt::Formatter<'_>) -> fmt::Result {
         write!(formatter, "two values `(x, y)`, each {} such as {}", D::NAME, D::EXAMPLE)
     }
 
-    fn visit_seq<A: SeqAccess<'de>>(self, mut values: A) -> Result<Pair<D>, A::Error> {
+    fn visit_seq<A: SeqAccess<'de>>(self, mut values: A) -> Result<QuantityPair<D>, A::Error> {
         let mut next = |count| values.next_element()?.ok_or_else(|| de::Error::invalid_length(count, &self));
-        let pair = Pair { x: next(0)?, y: next(1)? };
+        let pair = QuantityPair { x: next(0)?, y: next(1)? };
         if values.next_element::<de::IgnoredAny>()?.is_some() {
             return Err(de::Error::invalid_length(3, &self));
         }
@@ -242,7 +242,7 @@ impl<'de, D: Dimension> Visitor<'de> for Two<D> {
     }
 }
 
-impl<'de, D: Dimension> Deserialize<'de> for Pair<D> {
+impl<'de, D: Dimension> Deserialize<'de> for QuantityPair<D> {
     fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
         reader.deserialize_tuple(2, Two(PhantomData))
     }

@@ -12,15 +12,13 @@ mod spread;
 use crate::SimulationExt;
 use std::time::{Duration, Instant};
 
-use glam::DVec2;
-
 pub use memory::resident;
 pub use plain_loop::Plain;
 pub use spread::Spread;
 
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::{Plan, Simulation};
-use jostle_engine::tick::stopwatch::{self, Part, Stopwatch};
+use jostle_engine::tick::stopwatch::{self, Stopwatch, TickPart};
 use jostle_engine::tick::{Failure, State};
 
 /// Ticks times atoms of a round: a fifth of a second, about.
@@ -33,7 +31,7 @@ const LEAST: u64 = 50;
 
 /// The order of a measurement.
 #[derive(Clone, Copy, Debug)]
-pub struct Order {
+pub struct BenchRequest {
     /// Ticks of a round. `None`: a fifth of a second, but at least 50 ticks, within the duration of the scene.
     pub ticks: Option<u64>,
     /// The number of rounds that are timed.
@@ -44,7 +42,7 @@ pub struct Order {
     pub from: f64,
 }
 
-impl Order {
+impl BenchRequest {
     /// Ticks of a round of a scene. They do not depend on how fast the computer is, so the state in the end does not either.
     pub fn ticks_of(&self, simulation: &Simulation) -> u64 {
         let (work, least) = if self.quick { (QUICK_WORK, 1) } else { (WORK, LEAST) };
@@ -77,7 +75,7 @@ pub struct Beside {
 
 /// The measurement of a scene.
 #[derive(Clone, Debug)]
-pub struct Measured {
+pub struct BenchResult {
     /// Bodies in the end.
     pub bodies: usize,
     /// Atoms in the end.
@@ -139,9 +137,9 @@ impl From<Failure> for Stopped {
 /// When the scene is wrong, its run fails, or it ends before the measurement.
 pub fn measure(
     load: impl Fn(Option<Plan>) -> Result<Simulation, SceneErrors>,
-    order: Order,
+    order: BenchRequest,
     step: impl Fn(),
-) -> Result<Measured, Stopped> {
+) -> Result<BenchResult, Stopped> {
     let mut engine = load(None)?;
     let ticks = order.ticks_of(&engine);
     let first = order.first_tick(&engine);
@@ -166,13 +164,13 @@ pub fn measure(
     let per_tick = 1.0 / ticks as f64;
     let per_atom = 1e9 * per_tick / atoms.max(1) as f64;
     let card = engine.card();
-    let (near, touching) = pairs(&engine);
+    let (near, touching) = engine.resource::<State>().pairs().map_or((0, 0), |pairs| pairs.count(engine.bodies()));
     let beside = plain.map(|plain| Beside {
         ns_per_atom_tick: of(&|(_, plain)| plain * per_atom),
         ratio: of(&|(engine, plain)| engine / plain.max(1e-9)),
         kinetic_energy: plain.kinetic_energy() / card.energy.kinetic,
     });
-    let measured = Measured {
+    let measured = BenchResult {
         bodies: engine.bodies().len(),
         atoms,
         ticks,
@@ -197,7 +195,7 @@ pub fn measure(
     let before = watched.resource::<State>().stopwatch().cloned();
     watched.run_to_tick(first + 2 * ticks)?;
     step();
-    Ok(Measured { stages: stages(before.as_ref(), watched.resource::<State>().stopwatch()), ..measured })
+    Ok(BenchResult { stages: stages(before.as_ref(), watched.resource::<State>().stopwatch()), ..measured })
 }
 
 fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
@@ -206,21 +204,10 @@ fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     (start.elapsed(), done)
 }
 
-/// The number of pairs near each other, and of those that touch.
-fn pairs(simulation: &Simulation) -> (usize, usize) {
-    let bodies = simulation.bodies();
-    let Some(pairs) = simulation.resource::<State>().pairs() else { return (0, 0) };
-    let (place, radius) = (|atom| bodies.atom_place(atom), &bodies.atom_radius);
-    let touch = |a: usize, b: usize| DVec2::distance(place(a), place(b)) < radius[a] + radius[b];
-    let atoms = pairs.atoms.iter().filter(|pair| touch(pair.a as usize, pair.b as usize)).count();
-    let surfaces = pairs.surfaces.iter().filter(|pair| pair.overlap(bodies) > 0.0).count();
-    (pairs.atoms.len() + pairs.surfaces.len(), atoms + surfaces)
-}
-
 /// Shares of the time that was spent between two looks at a stopwatch.
 fn stages(before: Option<&Stopwatch>, after: Option<&Stopwatch>) -> Vec<(&'static str, f64)> {
     let Some((before, after)) = before.zip(after) else { return Vec::new() };
-    let parts = Part::ALL.into_iter().filter(|part| *part != Part::Between);
+    let parts = TickPart::ALL.into_iter().filter(|part| *part != TickPart::Between);
     let spent = |part| (after.spent(part) - before.spent(part)).as_secs_f64();
     let spent: Vec<_> = parts.map(|part| (part.name(), spent(part))).collect();
     let all: f64 = spent.iter().map(|(_, spent)| spent).sum();

@@ -19,13 +19,13 @@ use std::sync::{Mutex, PoisonError};
 
 pub use html::page as html;
 pub use markdown::page as markdown;
-pub use page::{Block, Cell, Picture, page};
+pub use page::{Block, Cell, PagePicture, page};
 pub use peers::Peers;
 pub use provenance::Made;
 
 use super::estimate::validation::{Checked, check};
 use super::work_precision::{
-    Budget, Course, DiagramLegend, Outcome, Peer, Rules, Setting, Settings, TARGETS, climb, least,
+    Budget, DiagramLegend, MethodChoice, Peer, Rules, Setting, SettingOutcome, Settings, TARGETS, climb, least,
 };
 use crate::problems::hard::{Case, Extent, Judgement, Reading, rounded};
 use crate::problems::{self, Problem, methods};
@@ -46,7 +46,7 @@ const LEAST_ERROR: f64 = 1e-16;
 
 /// The order of a report.
 #[derive(Clone, Copy, Debug, Default)]
-pub struct Order {
+pub struct DocumentRequest {
     /// Fewer methods, ticks and hard cases: a first look.
     pub quick: bool,
 }
@@ -92,21 +92,21 @@ enum Done {
     Problem(Box<Sheet>),
 }
 
-impl Order {
+impl DocumentRequest {
     /// The extent to which a hard case runs, or `None` if it is left out.
     fn extent(&self, case: &Case) -> Option<Extent> {
         if self.quick { case.cheap.then_some(Extent::Short) } else { Some(Extent::Full) }
     }
 
     /// The ways in which a problem is run.
-    pub fn courses(&self, problem: &Problem) -> Vec<Course> {
+    pub fn courses(&self, problem: &Problem) -> Vec<MethodChoice> {
         let wanted = |name: &str| !self.quick || QUICK.contains(&name);
         let methods = methods().into_iter().filter(|method| wanted(method.name));
         let all = methods.flat_map(|method| {
             let timings = problem.timings(&method);
-            timings.into_iter().map(move |events| Course { method: method.name, events })
+            timings.into_iter().map(move |events| MethodChoice { method: method.name, events })
         });
-        std::iter::once(Course::of(ClockSection::AUTO)).chain(all).collect()
+        std::iter::once(MethodChoice::of(ClockSection::AUTO)).chain(all).collect()
     }
 
     /// Errors of problems, and hard cases, on all cores; `step` is called after each. Costs are not known yet.
@@ -152,7 +152,7 @@ impl Order {
         let courses = self.courses(problem).into_iter().map(|course| (course, ticks.clone().into_iter().into()));
         let rules = Rules { rungs: usize::MAX, leaves_behind: !self.quick };
         let Ok((all, ends)) = climb(&subject, courses, &rules, &Budget::endless());
-        let hash = problem.load(&problems::Setting { tick: problem.tick, ..Default::default() }).ok();
+        let hash = problem.load(&problems::ProblemSetting { tick: problem.tick, ..Default::default() }).ok();
         let hash = hash.and_then(|mut simulation| {
             simulation.run_to_end().ok()?;
             Some(simulation.card().hash)
@@ -168,9 +168,9 @@ impl Sheet {
     pub fn time(&mut self) {
         let problem = self.problem;
         for setting in &mut self.settings.all {
-            if let Outcome::Measured(_) = setting.outcome {
-                let Course { method, events } = setting.course;
-                let run = problems::Setting { method, tick: setting.tick, shift: 0.0, events };
+            if let SettingOutcome::Measured(_) = setting.outcome {
+                let MethodChoice { method, events } = setting.course;
+                let run = problems::ProblemSetting { method, tick: setting.tick, shift: 0.0, events };
                 let seconds = least(|| problem.load(&run), f64::INFINITY, 0.0);
                 setting.seconds = seconds.ok().flatten().map(|seconds| seconds / problem.duration());
             }
@@ -225,7 +225,7 @@ impl Sheet {
             "method,events,tick [s],error,seconds_per_second,evaluations_per_second [1/s],failure\n".to_owned();
         let or_empty = |value: Option<f64>| value.map_or_else(String::new, |value| format!("{value:e}"));
         for setting in &self.settings.all {
-            let Course { method, events } = setting.course;
+            let MethodChoice { method, events } = setting.course;
             let failure = failure(setting).map_or_else(String::new, |why| format!("\"{}\"", why.replace('"', "\"\"")));
             text.push_str(&format!(
                 "{method},{events:?},{:e},{},{},{:e},{failure}\n",
@@ -242,10 +242,10 @@ impl Sheet {
 /// The reason for which a setting has no error.
 fn failure(setting: &Setting) -> Option<String> {
     match &setting.outcome {
-        Outcome::Measured(_) => None,
-        Outcome::Failed(failure) => Some(failure.to_string()),
-        Outcome::Refused(why) => Some(why.clone()),
-        Outcome::Unknown | Outcome::Stopped(_) => Some("the error is infinite or NaN".to_owned()),
+        SettingOutcome::Measured(_) => None,
+        SettingOutcome::Failed(failure) => Some(failure.to_string()),
+        SettingOutcome::Refused(why) => Some(why.clone()),
+        SettingOutcome::Unknown | SettingOutcome::Stopped(_) => Some("the error is infinite or NaN".to_owned()),
     }
 }
 
@@ -287,12 +287,13 @@ mod tests {
     #[test]
     fn errors_of_a_sheet_are_those_of_the_problem() {
         let problem = elastic_bounce::PROBLEM;
-        let (mut sheets, cases) = Order { quick: true }.errors(&[problem], &[], &|| ());
+        let (mut sheets, cases) = DocumentRequest { quick: true }.errors(&[problem], &[], &|| ());
         assert!(cases.is_empty() && sheets[0].hash.is_some());
-        let course = Course { method: "VelocityVerlet", events: EventTiming::PerTick };
+        let course = MethodChoice { method: "VelocityVerlet", events: EventTiming::PerTick };
         let at =
             |sheet: &Sheet| sheet.settings.of(course).find(|setting| setting.tick == problem.tick).cloned().unwrap();
-        let run = problems::Setting { method: course.method, tick: problem.tick, shift: 0.0, events: course.events };
+        let run =
+            problems::ProblemSetting { method: course.method, tick: problem.tick, shift: 0.0, events: course.events };
         assert_eq!(at(&sheets[0]).error().unwrap(), problem.measure(&run).unwrap());
         assert_eq!(at(&sheets[0]).seconds, None);
         sheets[0].time();
@@ -316,8 +317,8 @@ mod tests {
             (1e-9, Some("gold")),
             (rounding, Some("reference")),
         ] {
-            let outcome = Outcome::Measured(crate::work_precision::Deviation { error, apart: None });
-            let setting = Setting { outcome, ..Setting::new(Course::of("A"), tick) };
+            let outcome = SettingOutcome::Measured(crate::work_precision::Deviation { error, apart: None });
+            let setting = Setting { outcome, ..Setting::new(MethodChoice::of("A"), tick) };
             assert_eq!(sheet.grade(&setting), grade);
             // Each is better than all before.
             sheet.settings.all.push(setting);

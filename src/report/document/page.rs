@@ -18,7 +18,7 @@ pub enum Block {
     /// Heads and rows.
     Table(Vec<String>, Vec<Vec<Cell>>),
     /// A picture.
-    Picture(Picture),
+    Picture(PagePicture),
     /// Content that is shown on demand, under a name.
     Folded(String, Vec<Block>),
 }
@@ -34,7 +34,7 @@ pub enum Cell {
 
 /// A picture that lies beside the report.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Picture {
+pub struct PagePicture {
     /// The name of its file.
     pub file: String,
     /// Its description.
@@ -68,7 +68,7 @@ pub fn page(
     sheets: &[Sheet],
     cases: &[Judged],
     peers: &Peers,
-    picture: &dyn Fn(&Sheet) -> Option<Picture>,
+    picture: &dyn Fn(&Sheet) -> Option<PagePicture>,
 ) -> Vec<Block> {
     let mut blocks = vec![Block::Heading(1, "Speed against error".to_owned()), Block::Text(HOW.to_owned())];
     let made = made.lines.iter().map(|(name, value)| vec![Cell::from(*name), value.clone().into()]).collect();
@@ -213,7 +213,7 @@ fn readings<'a>(cases: impl Iterator<Item = &'a Judged>, wanted: impl Fn(Judgeme
     Block::Table(heads, rows)
 }
 
-fn problem(sheet: &Sheet, peers: &Peers, picture: Option<Picture>, blocks: &mut Vec<Block>) {
+fn problem(sheet: &Sheet, peers: &Peers, picture: Option<PagePicture>, blocks: &mut Vec<Block>) {
     let problem = &sheet.problem;
     blocks.push(Block::Heading(2, problem.name.to_owned()));
     let mut text = format!("{}. Source: {}.", crate::capital(problem.law), problem.source);

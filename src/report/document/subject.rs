@@ -2,8 +2,8 @@
 
 use std::convert::Infallible;
 
-use crate::problems::{Problem, Setting as Run};
-use crate::work_precision::{Course, Deviation, Outcome, Setting, Subject, timed};
+use crate::problems::{Problem, ProblemSetting as Run};
+use crate::work_precision::{Deviation, MethodChoice, Setting, SettingOutcome, Subject, timed};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
@@ -21,18 +21,18 @@ pub(super) struct Asked<'a> {
 impl Subject for Asked<'_> {
     type Wrong = Infallible;
 
-    fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), Infallible> {
+    fn run(&self, course: MethodChoice, tick: f64) -> Result<(Setting, f64), Infallible> {
         let problem = self.problem;
         let phases = if problem.class.depends_on_phase() && self.phases { &PHASES[..] } else { &PHASES[..1] };
         let mut setting = Setting::new(course, tick);
         let (mut error, mut spent) = (0.0_f64, 0.0);
         for phase in phases {
-            let Course { method, events } = course;
+            let MethodChoice { method, events } = course;
             let run = Run { method, tick, shift: phase * tick, events };
             let mut simulation = match problem.load(&run) {
                 Ok(simulation) => simulation,
                 Err(wrong) => {
-                    setting.outcome = Outcome::Refused(first_line(&wrong.to_string()));
+                    setting.outcome = SettingOutcome::Refused(first_line(&wrong.to_string()));
                     return Ok((setting, spent));
                 }
             };
@@ -47,14 +47,14 @@ impl Subject for Asked<'_> {
                 Err(failure) => {
                     let reached = failure.time.max(tick);
                     (setting.evaluations, setting.seconds) = (evaluations / reached, Some(time / reached));
-                    setting.outcome = Outcome::Failed(failure);
+                    setting.outcome = SettingOutcome::Failed(failure);
                     return Ok((setting, spent));
                 }
             }
             setting.evaluations = setting.evaluations.max(evaluations / problem.duration());
         }
         if error.is_finite() {
-            setting.outcome = Outcome::Measured(Deviation { error, apart: None });
+            setting.outcome = SettingOutcome::Measured(Deviation { error, apart: None });
         }
         Ok((setting, spent))
     }

@@ -11,8 +11,7 @@ mod model_error;
 mod rounding;
 mod twins;
 pub mod validation;
-
-use std::time::Duration;
+mod work;
 
 use bevy_ecs::prelude::*;
 
@@ -27,17 +26,8 @@ use jostle_engine::simulation::{Overrides, Plan};
 use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::number;
 use twins::{Finer, Told};
+use work::{Patience, SHARE};
 
-/// The share of the run's work that an estimate may take by default.
-const SHARE: f64 = 0.03;
-/// ... or this many evaluations of the forces of a world without atoms, if that is more. It is about a tenth of a
-/// second...
-const FREE: f64 = 2e5;
-/// ... or four times as many, if that suffices for the whole run.
-const WHOLE: f64 = 8e5;
-/// Work of an evaluation for each atom, over what each evaluation takes whatever there is, and of reading a scene.
-const PER_ATOM: f64 = 0.04;
-const READING: f64 = 8.0;
 /// Moments at which runs are compared, spread over the run, and numbers that are kept of them.
 const EVEN: u64 = 4096;
 const MOST_NUMBERS: u64 = 6_000_000;
@@ -45,8 +35,6 @@ const MOST_NUMBERS: u64 = 6_000_000;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Share of the motion from which positions count as wrong.
 const PARTED: f64 = 1e-2;
-/// Parts of a run between which it is seen whether it takes too long.
-const CHUNKS: u64 = 64;
 /// Fewer moments show no growth.
 const FEWEST_MOMENTS: usize = 4;
 
@@ -65,7 +53,7 @@ pub enum Effort {
 
 /// The requested estimate of a run.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Wanted {
+pub struct EstimateRequest {
     /// Work for the error that the finite tick makes.
     pub effort: Effort,
     /// Whether the error of finite digits is wanted: three runs more.
@@ -131,7 +119,7 @@ impl Repeated<'_> {
 }
 
 /// Makes ready to estimate the error of a run that is at its beginning: some of its states are kept.
-pub fn watch(simulation: &mut Simulation, wanted: Wanted) {
+pub fn watch(simulation: &mut Simulation, wanted: EstimateRequest) {
     let known = simulation.contains_resource::<KnownError>();
     if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !known) {
         let moments = moments(simulation);
@@ -171,8 +159,8 @@ fn moments_of(ticks: u64, bodies: u64, cycles: [u64; 2]) -> Vec<u64> {
 ///
 /// # Errors
 /// Those of reading the scene again.
-pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -> Result<(), SceneErrors> {
-    if wanted == (Wanted { effort: Effort::None, ..Wanted::default() }) {
+pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Repeated) -> Result<(), SceneErrors> {
+    if wanted == (EstimateRequest { effort: Effort::None, ..EstimateRequest::default() }) {
         return Ok(());
     }
     let run = Trajectory::watched(simulation, None);
@@ -189,20 +177,6 @@ pub fn estimate(simulation: &mut Simulation, wanted: Wanted, scene: &Repeated) -
     }
     simulation.world_mut().insert_resource(found);
     Ok(())
-}
-
-/// The work of a run so far, in evaluations of the forces of a world of one atom.
-fn work(simulation: &Simulation) -> f64 {
-    let evaluations = simulation.resource::<State>().evaluation().count as f64;
-    evaluations * (1.0 + PER_ATOM * simulation.bodies().atom_count() as f64)
-}
-
-/// The part of a run that twins can repeat for little work, if they take `times` its work.
-fn affordable(simulation: &Simulation, times: f64) -> f64 {
-    let (work, reading) = (work(simulation), READING * simulation.bodies().atom_count() as f64);
-    let whole = times * work;
-    let least = if whole + reading <= WHOLE { WHOLE } else { FREE };
-    ((least.max(SHARE * work) - reading) / whole).clamp(0.0, 1.0)
 }
 
 /// The order with which errors are expected to fall: jumps of forces that are not located leave one.
@@ -231,7 +205,7 @@ fn discretisation(
 ) -> Result<(), SceneErrors> {
     let ticks = simulation.clock().ticks;
     let twins = twins::of(simulation);
-    let part = if effort == Effort::Full { 1.0 } else { affordable(simulation, twins::work(&twins)) };
+    let part = if effort == Effort::Full { 1.0 } else { work::affordable(simulation, twins::work(&twins)) };
     let until = (part * ticks as f64) as u64;
     let seen = moments(simulation).iter().filter(|tick| **tick <= until).count();
     if seen < FEWEST_MOMENTS.min(ticks as usize) {
@@ -241,7 +215,7 @@ fn discretisation(
         ));
         return Ok(());
     }
-    let patience = (effort != Effort::Full).then(|| Duration::from_secs_f64(1.0 + 0.1 * simulation.seconds_spent()));
+    let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.steps()));
     let (mut told, mut order) = (Told::default(), expected_order(simulation));
     let (motion, mut observed) = (run.sizes().0, None);
     if effort == Effort::Full {
@@ -250,7 +224,7 @@ fn discretisation(
     }
     let mut first_twin = None;
     for (number, &finer) in twins.iter().enumerate() {
-        let Some((twin, second)) = twins::run(simulation, (finer, until), patience, scene)? else {
+        let Some((twin, second)) = twins::run(simulation, (finer, until), patience(finer), scene)? else {
             found.began = None;
             found.notes.push("the error is not estimated: that takes long. --estimate takes the time".to_owned());
             return Ok(());
@@ -296,10 +270,10 @@ fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &m
     let last = moments(simulation).into_iter().rfind(|tick| *tick <= until).unwrap_or_default();
     let known = simulation.clock().time_of(last);
     let (told, all) = (number(known), number(simulation.clock().time()));
-    let untouched = if touches(simulation) && !touches(second) { ", in which nothing touches" } else { "" };
+    let untouched = if touches(simulation) && !touches(second) { ", in which no bodies touch" } else { "" };
     found.known_until = Some(known);
     found.notes.push(format!(
-        "the error is that of the first {told} s of {all} s{untouched}. Finer runs cover only these. With --estimate they \
+        "the error is that of the first {told} s of {all} s. Finer runs cover only these{untouched}. With --estimate they \
          cover all"
     ));
 }

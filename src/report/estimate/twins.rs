@@ -6,13 +6,12 @@
 //! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
 //! except for one in ten of the first run.
 
-use std::time::{Duration, Instant};
-
 use super::growth::{Growth, Seen};
-use super::{CHUNKS, Repeated, moments, touches};
+use super::work::{self, Patience, TooLong};
+use super::{Repeated, moments, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, Pace};
+use jostle_engine::integrate::{Detail, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -41,7 +40,7 @@ impl Finer {
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
 
     /// The factor by which its steps are shorter.
-    fn steps(self) -> f64 {
+    pub fn steps(self) -> f64 {
         f64::from(self.ticks * self.parts) / f64::from(self.of)
     }
 
@@ -69,7 +68,7 @@ impl Finer {
             looks: plan.detail.looks,
             swing: plan.detail.swing / f64::from(if self.ticks > 1 { self.parts } else { 1 }),
         };
-        (plan.pace == Pace::Even(1)).then_some(Plan { tick, detail, ..plan })
+        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, ..plan })
     }
 }
 
@@ -137,7 +136,7 @@ pub(super) fn watch_beside(other: &mut Simulation, first: &Simulation, finer: Fi
 pub(super) fn run(
     first: &Simulation,
     (finer, until): (Finer, u64),
-    patience: Option<Duration>,
+    patience: Option<Patience>,
     scene: &Repeated,
 ) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
     let Some(plan) = finer.plan(first) else { return Ok(None) };
@@ -145,16 +144,10 @@ pub(super) fn run(
     let what = format!("once more with a tick of {} s{steps}, for its error", number(plan.tick));
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
-    let until = finer.tick(until);
-    let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
-    let mut failure = None;
-    while failure.is_none() && twin.clock().ticks < until {
-        if patience.is_some_and(|patience| begin.elapsed() > patience) {
-            return Ok(None);
-        }
-        failure = twin.run_to_tick((twin.clock().ticks + chunk).min(until)).err();
-    }
-    Ok(Some((Trajectory::watched(&mut twin, failure), twin)))
+    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience) {
+        Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
+        Err(TooLong) => None,
+    })
 }
 
 /// The results of twins on the error of a run.

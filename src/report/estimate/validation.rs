@@ -4,8 +4,8 @@
 use crate::SimulationExt;
 use std::error::Error;
 
-use super::{Effort, Repeated, Wanted, estimate, watch};
-use crate::problems::{EventTiming, Problem, Setting};
+use super::{Effort, EstimateRequest, Repeated, estimate, watch};
+use crate::problems::{EventTiming, Problem, ProblemSetting};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ClockSection;
 use jostle_engine::scene::Source;
@@ -56,7 +56,7 @@ struct Told {
 /// A run of a problem: its trajectory, and the estimate of its error.
 fn run(
     problem: &Problem,
-    (setting, stride): (&Setting, u64),
+    (setting, stride): (&ProblemSetting, u64),
     overrides: &Overrides,
 ) -> Result<(Trajectory, Option<Told>), Box<dyn Error>> {
     let source = Source::new(problem.name, (problem.scene)(setting, problem.duration()));
@@ -66,7 +66,7 @@ fn run(
     Trajectory::watch(&mut seen, (1..=ticks / stride).map(|moment| moment * stride).collect());
     seen.run_to_end()?;
     let trajectory = Trajectory::watched(&mut seen, None);
-    let wanted = Wanted { effort: Effort::Little, ..Wanted::default() };
+    let wanted = EstimateRequest { effort: Effort::Little, ..EstimateRequest::default() };
     watch(&mut told, wanted);
     told.run_to_end()?;
     estimate(&mut told, wanted, &Repeated { overrides, load: &load, tell: None })?;
@@ -90,7 +90,7 @@ pub fn check(problem: &Problem) -> Result<Vec<Checked>, Box<dyn Error>> {
     };
     // All runs are compared at the same moments: ends of ticks of the coarsest, and so of all others.
     let stride = (most / coarsest) as u64;
-    let setting = Setting { tick: coarsest, events: EventTiming::Located, ..Setting::default() };
+    let setting = ProblemSetting { tick: coarsest, events: EventTiming::Located, ..ProblemSetting::default() };
     let method = Some(ClockSection::REFERENCE.to_owned());
     let overrides = Overrides { method, tick: Some(coarsest), ..Overrides::default() };
     let (truth, _) = run(problem, (&setting, stride), &overrides)?;
@@ -98,7 +98,7 @@ pub fn check(problem: &Problem) -> Result<Vec<Checked>, Box<dyn Error>> {
     for method in METHODS {
         let (mut coarser, mut found): (Option<(Checked, f64)>, usize) = (None, 0);
         for tick in LADDER.map(|share| share * problem.tick) {
-            let setting = Setting { method, tick, ..Setting::default() };
+            let setting = ProblemSetting { method, tick, ..ProblemSetting::default() };
             if tick > coarsest || found == STEPS {
                 continue;
             }

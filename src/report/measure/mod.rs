@@ -15,10 +15,10 @@ pub use beyond::MeanDeviation;
 pub use reference::{NoReference, Reference};
 
 use super::work_precision::{
-    Budget, Cost, Course, DiagramLegend, Outcome, Rules, Setting, Settings, USELESS, climb, timed,
+    Budget, Cost, DiagramLegend, MethodChoice, Rules, Setting, SettingOutcome, Settings, USELESS, climb, timed,
 };
-use jostle_engine::integrate::clock::EventTiming;
-use jostle_engine::integrate::{Detail, Pace};
+use jostle_engine::integrate::clock_section::EventTiming;
+use jostle_engine::integrate::{Detail, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::{Plan, Simulation};
 use jostle_film::raster::Diagram;
@@ -30,7 +30,7 @@ over how far the body goes. The other is the root mean square over time of the d
 
 /// The order of a measurement.
 #[derive(Clone, Debug)]
-pub struct Order {
+pub struct MeasureRequest {
     /// Seconds that it may take in all, about.
     pub budget: f64,
     /// Ticks that each method tries at the most.
@@ -69,7 +69,8 @@ pub struct Measured {
 impl Measured {
     /// Whether no setting came to its end.
     pub fn all_fail(&self) -> bool {
-        let ended = |setting: &Setting| matches!(setting.outcome, Outcome::Measured(_) | Outcome::Unknown);
+        let ended =
+            |setting: &Setting| matches!(setting.outcome, SettingOutcome::Measured(_) | SettingOutcome::Unknown);
         !self.settings.all.iter().any(ended)
     }
 
@@ -90,7 +91,7 @@ impl Measured {
 }
 
 /// A plan with equal ticks, or steps as long as their error allows.
-fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
+fn plan(method: &str, tick: f64, pace: StepPace, events: EventTiming) -> Plan {
     // An empty estimate, which keeps others from estimating.
     let error = Some(jostle_engine::simulation::error::ErrorEstimate::default());
     Plan {
@@ -109,7 +110,7 @@ fn plan(method: &str, tick: f64, pace: Pace, events: EventTiming) -> Plan {
 ///
 /// # Errors
 /// When the scene is wrong, no body moves, or the budget is too short for a reference.
-pub fn measure(load: Load, order: &Order, tell: &dyn Fn(f64)) -> Result<Measured, NoReference> {
+pub fn measure(load: Load, order: &MeasureRequest, tell: &dyn Fn(f64)) -> Result<Measured, NoReference> {
     let budget = Budget { start: Instant::now(), whole: order.budget, tell };
     let scene = Scene::look(load)?;
     let truth = match reference::find(load, &scene, &budget) {
@@ -120,7 +121,7 @@ pub fn measure(load: Load, order: &Order, tell: &dyn Fn(f64)) -> Result<Measured
     let known = truth.as_ref().ok();
     let wanted = |name: &str| order.methods.is_empty() || order.methods.iter().any(|wanted| wanted == name);
     let methods = scene.methods.0.iter().filter(|method| wanted(method.name));
-    let courses = methods.map(|method| (Course::of(method.name), scene.rungs(method, known)));
+    let courses = methods.map(|method| (MethodChoice::of(method.name), scene.rungs(method, known)));
     let rules = Rules { rungs: order.rungs, leaves_behind: true };
     let subject = Compared { load, scene: &scene, truth: known, budget: &budget };
     let (all, ends) = climb(&subject, courses, &rules, &budget)?;

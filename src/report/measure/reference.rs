@@ -9,8 +9,8 @@ use super::beyond::{Beyond, MeanDeviation};
 use super::scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use jostle_engine::Simulation;
-use jostle_engine::integrate::clock::EventTiming;
-use jostle_engine::integrate::{Allowance, MOST_STEPS, Pace};
+use jostle_engine::integrate::clock_section::EventTiming;
+use jostle_engine::integrate::{Allowance, MOST_STEPS, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
@@ -94,7 +94,7 @@ pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
     plan(
         "Dop853",
         tick,
-        Pace::Allowed(Allowance { share, longest: duration, most_steps: MOST_STEPS }),
+        StepPace::Allowed(Allowance { share, longest: duration, most_steps: MOST_STEPS }),
         EventTiming::Located,
     )
 }
@@ -201,7 +201,7 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
     let started = budget.used();
     let mut begun = started;
     for _ in 0..MOST_DOUBLINGS {
-        let plan = plan("VelocityVerlet", scene.duration / count as f64, Pace::Even(1), EventTiming::PerTick);
+        let plan = plan("VelocityVerlet", scene.duration / count as f64, StepPace::Even(1), EventTiming::PerTick);
         let mut simulation = load(Way::Plan(&plan))?;
         let within = || budget.within(TICKS_BY);
         let (spent, seen) = timed(|| Trajectory::while_it(&mut simulation, count / scene.seen, &within));

@@ -2,7 +2,7 @@
 //! twice as fine as needed.
 
 use super::scene::Compared;
-use crate::work_precision::{Course, Setting, Settings, Subject, TARGETS};
+use crate::work_precision::{MethodChoice, Setting, Settings, Subject, TARGETS};
 use jostle_engine::scene::SceneErrors;
 
 /// The tries between two ticks for each error.
@@ -33,8 +33,8 @@ pub(super) fn refine(settings: &mut Settings, subject: &Compared) -> Result<(), 
 fn between(
     settings: &Settings,
     subject: &Compared,
-    (course, tick, target): (Course, f64, f64),
-) -> Option<(Course, usize, u64)> {
+    (course, tick, target): (MethodChoice, f64, f64),
+) -> Option<(MethodChoice, usize, u64)> {
     let is_it = |setting: &Setting| setting.course == course && setting.tick == tick;
     let index = settings.all.iter().position(is_it)?;
     let coarser = settings.all[..index].last().filter(|coarser| coarser.course == course)?;

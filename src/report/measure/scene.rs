@@ -5,7 +5,7 @@ use std::f64::consts::PI;
 
 use super::reference::{self, Truth};
 use super::{Load, Way};
-use crate::work_precision::{Budget, Course, Deviation, Outcome, Rungs, Setting, Subject, least, timed};
+use crate::work_precision::{Budget, Deviation, MethodChoice, Rungs, Setting, SettingOutcome, Subject, least, timed};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::{Description, Methods};
 use jostle_engine::scene::SceneErrors;
@@ -122,7 +122,7 @@ pub(super) struct Compared<'a> {
 impl Subject for Compared<'_> {
     type Wrong = SceneErrors;
 
-    fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), SceneErrors> {
+    fn run(&self, course: MethodChoice, tick: f64) -> Result<(Setting, f64), SceneErrors> {
         let Self { load, scene, truth, budget } = self;
         let count = (scene.duration / tick).round() as u64;
         let mut setting = Setting::new(course, tick);
@@ -130,7 +130,7 @@ impl Subject for Compared<'_> {
             Ok(simulation) => simulation,
             Err(errors) => {
                 let why = errors.errors().first().map_or_else(String::new, |error| error.message.clone());
-                setting.outcome = Outcome::Refused(why);
+                setting.outcome = SettingOutcome::Refused(why);
                 return Ok((setting, 0.0));
             }
         };
@@ -151,11 +151,11 @@ impl Subject for Compared<'_> {
             setting.notes.push(format!("{given_up} of {count} ticks with too many events to locate them"));
         }
         match seen {
-            Err(share) => setting.outcome = Outcome::Stopped(share),
+            Err(share) => setting.outcome = SettingOutcome::Stopped(share),
             Ok(Trajectory { failure: Some(failure), evaluations, .. }) => {
                 setting.evaluations = evaluations as f64 / failure.time.max(tick);
                 setting.seconds = Some(spent / failure.time.max(tick));
-                setting.outcome = Outcome::Failed(failure);
+                setting.outcome = SettingOutcome::Failed(failure);
             }
             Ok(run) => {
                 setting.evaluations = run.evaluations as f64 / scene.duration;
@@ -164,7 +164,7 @@ impl Subject for Compared<'_> {
                         .part(truth.about.until, 1)
                         .apart_by(&truth.run.part(truth.about.until, every as usize), &truth.measures);
                     let deviation = Deviation { error: apart.share, apart: Some((apart.distance, apart.speed)) };
-                    setting.outcome = Outcome::Measured(deviation);
+                    setting.outcome = SettingOutcome::Measured(deviation);
                     let beyond = truth.beyond.as_ref().and_then(|beyond| beyond.compare(&run));
                     setting.notes.extend(beyond.map(|apart| format!("beyond: {}", apart.words())));
                 }

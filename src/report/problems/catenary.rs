@@ -8,7 +8,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::linkage::{bar, greatest};
-use super::{Class, Problem, Setting, Truth};
+use super::{Class, Problem, ProblemSetting, Truth};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -48,7 +48,7 @@ fn nodes() -> Vec<DVec2> {
     numbers.chunks_exact(2).map(|place| DVec2::new(place[0], place[1])).collect()
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (nodes, mut bodies, mut joints) = (nodes(), String::new(), String::new());
     let half = 0.5 * LENGTH;

@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting};
+use super::{Class, Constant, Problem, ProblemSetting};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -51,7 +51,7 @@ pub fn atoms(time: f64) -> [DVec2; 3] {
     ATOMS.map(|[_, _, x, y]| center() + VELOCITY * time + rotation.rotate(DVec2::new(x, y) - center()))
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let atom = |[mass, radius, x, y]: &[f64; 4]| format!("(at: ({x:?}, {y:?}), radius: {radius:?}, mass: {mass:?})");
     let atoms: Vec<String> = ATOMS.iter().map(atom).collect();

@@ -3,7 +3,7 @@
 //!
 //! Mass, middle and inertia are those of the atoms as discs; the anchor counts from the origin of the atoms.
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -38,7 +38,7 @@ const CONSTANTS: &[Constant] = &[
 /// The reference values.
 pub const TRUTH: &str = include_str!("../../../assets/truths/J02_compound_pendulum.json");
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, gravity: (0, -9.81), contacts: None,

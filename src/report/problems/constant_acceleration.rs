@@ -3,7 +3,7 @@
 //! `x = a t^2/2`. In `n` ticks semi-implicit Euler arrives at `a dt^2 n (n + 1)/2`, and explicit Euler at `a dt^2 n
 //! (n - 1)/2`. Methods of order 2 and more arrive at the exact value. SI units.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -34,7 +34,7 @@ const CONSTANTS: &[Constant] = &[
 /// In m/s2.
 pub const ACCELERATION: f64 = 10.0;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, gravity: ({ACCELERATION:?}, 0),

@@ -5,7 +5,7 @@
 //! With a contact of stiffness `k` the box turns during the contact. The error of the ideal falls as `1/sqrt(k)`. The
 //! force jumps at the deepest overlap.
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -60,7 +60,7 @@ const LEAD: f64 = 1.0 / 1024.0;
 
 /// The box above a floor, with a contact of a stiffness in N/m. The time to the touch goes with `1/sqrt(k)`. A shift lets the box
 /// start that much earlier on its way.
-pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, stiffness: f64) -> String {
     let clock = setting.clock(duration);
     let lead = LEAD * (STIFFNESS / stiffness).sqrt() + setting.shift;
     let touching = ANGLE.to_radians();

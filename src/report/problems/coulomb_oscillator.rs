@@ -8,7 +8,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -70,8 +70,8 @@ pub fn state(time: f64) -> (f64, f64, u32) {
     (from, 0.0, swings)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let (place, velocity, _) = state(setting.shift);
     let height = RADIUS - GRAVITY / FLOOR;
     format!(

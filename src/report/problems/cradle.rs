@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -48,7 +48,7 @@ const RADIUS: f64 = 0.5;
 
 /// `count` discs, of which the first `incoming` come in, in touch with the others. A shift lets them start that much
 /// earlier on their way.
-pub fn scene(setting: &Setting, duration: f64, count: usize, incoming: usize) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, count: usize, incoming: usize) -> String {
     let clock = setting.clock(duration);
     let stiffness = 2.0 * OMEGA * OMEGA;
     let mut bodies = String::new();

@@ -5,7 +5,7 @@
 
 use std::fmt::Write;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -47,7 +47,7 @@ const OMEGA: f64 = 10.0;
 /// In m.
 const START: f64 = 0.1;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut springs) = (String::new(), String::new());
     for (index, (ratio, _)) in RATIOS.into_iter().enumerate() {

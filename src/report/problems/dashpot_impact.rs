@@ -9,7 +9,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -77,7 +77,7 @@ fn gap(time: f64, ratio: f64) -> f64 {
 }
 
 /// A shift moves the start along the approach. The restitution of each pair asks for the damping.
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (height, stiffness) = (RADIUS + GAP - SPEED * setting.shift, OMEGA * OMEGA);
     let (mut bodies, mut materials, mut pairs) = (String::new(), String::new(), String::new());

@@ -10,7 +10,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::linkage::{greatest, hanging};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -47,7 +47,7 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/J03_double_pendulum
 /// `e^(lambda t)` with the Lyapunov exponent of 0.86/s, after 5 s.
 const GROWTH: f64 = 74.0;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut at) = (String::new(), DVec2::ZERO);
     for name in ["upper", "lower"] {

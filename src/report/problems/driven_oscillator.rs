@@ -6,7 +6,7 @@
 use std::f64::consts::FRAC_PI_2;
 use std::fmt::Write;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -51,7 +51,7 @@ const DRIVES: [(f64, &str, &str); 3] = [
     (10.0, "x at 2*w0 (Omega=10.0)", "steady amplitude at 2*w0"),
 ];
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut forces) = (String::new(), String::new());
     for (index, (frequency, ..)) in DRIVES.into_iter().enumerate() {

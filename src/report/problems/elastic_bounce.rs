@@ -5,7 +5,7 @@
 //! With `w = sqrt(k/m)` and the impact speed `v = sqrt(2 g h)` contact lasts `(2/w) (pi - atan(v w/g))`. The force has
 //! kinks at the beginning and end of contact. Methods that do not locate them show at most order 2.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -67,7 +67,7 @@ pub fn state(time: f64) -> (f64, f64) {
 }
 
 /// The ball's own stiffness is that of the contact: walls are infinitely stiff.
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (gap, velocity) = state(setting.shift);
     let (height, stiffness) = (RADIUS + gap, OMEGA * OMEGA);

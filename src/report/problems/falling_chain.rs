@@ -3,8 +3,8 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::linkage::{Chain, Link, chain, turned_off};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::linkage::{Chain, ChainLink, chain, turned_off};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -42,9 +42,9 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/J10_hinged_rod_fall
 /// Number of links.
 const COUNT: usize = 6;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
-    let links = [Link { mass: 0.1, length: 0.2, angle: FRAC_PI_2 }; COUNT];
+    let links = [ChainLink { mass: 0.1, length: 0.2, angle: FRAC_PI_2 }; COUNT];
     let Chain { bodies, joints, .. } = chain("link", &links);
     format!("Scene({clock}, gravity: (0, -9.81), contacts: None, bodies: [{bodies}], joints: [{joints}])")
 }

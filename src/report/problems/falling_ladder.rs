@@ -7,7 +7,7 @@
 //! Off the wall no force acts along the floor, and the middle keeps its velocity. With contacts of stiffness `k` the error of
 //! the ideal falls as `1/k`.
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -57,7 +57,7 @@ const GRAVITY: f64 = 9.81;
 const START: f64 = 75.0;
 
 /// The ladder between walls of a stiffness in N/m.
-pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, stiffness: f64) -> String {
     let clock = setting.clock(duration);
     let angle = START.to_radians();
     let (sin, cos) = libm::sincos(angle);

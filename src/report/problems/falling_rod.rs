@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::linkage::bar;
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -42,7 +42,7 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/J10_hinged_rod_fall
 /// When it is level, in s.
 pub const LEVEL: f64 = 0.948_316_677_295_506_1;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (sin, cos) = libm::sincos(5.0_f64.to_radians());
     let rod = bar("rod", DVec2::ZERO, DVec2::new(sin, cos), 1.0);

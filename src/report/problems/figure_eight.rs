@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -51,7 +51,7 @@ const PHASE_GROWTH: f64 = 1.5 * PERIOD * 1.27;
 /// The least distance of two masses in m, at an isosceles triangle of all three: 0.69.
 const NEAREST: f64 = 0.69;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let start = Truth::read(TRUTH).numbers("initial state[x1,y1,x2,y2,x3,y3,vx1..vy3]");
     let mut bodies = String::new();

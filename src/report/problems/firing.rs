@@ -7,7 +7,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -66,7 +66,7 @@ pub fn place(angle: f64, rate: f64, time: f64) -> DVec2 {
     terminal * time - (velocity - terminal) * (libm::expm1(-rate * time) / rate)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut aims) = (String::new(), String::new());
     for (name, arc, ..) in SHOTS {

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::linkage::{bar, greatest};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -46,7 +46,7 @@ const MASSES: [f64; 3] = [0.2, 0.7, 0.6];
 /// In rad/s.
 const SPEED: f64 = 10.0;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let [crank, coupler, rocker, ground] = LENGTHS;
     let (first, last) = (DVec2::new(crank, 0.0), DVec2::new(ground, 0.0));

@@ -4,7 +4,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -46,7 +46,7 @@ pub fn angle(time: f64) -> f64 {
     3.0 * time
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, gravity: (0, {:?}),

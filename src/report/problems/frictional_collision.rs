@@ -13,7 +13,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Constant, EventTiming, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -61,8 +61,8 @@ const CONTACT_TIME: f64 = 0.010_468_8;
 const LEAD: f64 = 0.1;
 
 /// A shift lets the discs start that much earlier on their way.
-fn scene(setting: &Setting, duration: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let lead = LEAD * CONTACT_TIME + setting.shift;
     let mut bodies = String::new();
     let mut disc = |name: &str, at: DVec2, velocity: DVec2, spin: f64, material: &str, which: usize| {

@@ -7,7 +7,7 @@
 
 use std::fmt::Write;
 
-use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -56,8 +56,8 @@ pub fn state(degrees: f64, velocity: f64, time: f64) -> (f64, f64) {
 }
 
 /// The incline of the blocks given.
-pub fn scene_of(setting: &Setting, duration: f64, blocks: &[(f64, f64)]) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+pub fn scene_of(setting: &ProblemSetting, duration: f64, blocks: &[(f64, f64)]) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let (mut bodies, mut weights) = (String::new(), String::new());
     for (index, (degrees, velocity)) in blocks.iter().enumerate() {
         let (sin, cos) = libm::sincos(degrees.to_radians());
@@ -82,7 +82,7 @@ pub fn scene_of(setting: &Setting, duration: f64, blocks: &[(f64, f64)]) -> Stri
     )
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     scene_of(setting, duration, &BLOCKS)
 }
 

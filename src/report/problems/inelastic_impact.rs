@@ -7,7 +7,7 @@
 
 use std::f64::consts::FRAC_PI_2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -85,7 +85,7 @@ pub fn gap(time: f64, inelasticity: f64) -> f64 {
 }
 
 /// The impact with any inelasticity of the pair. A shift moves the start along the approach.
-pub fn scene(setting: &Setting, duration: f64, inelasticity: f64) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, inelasticity: f64) -> String {
     let clock = setting.clock(duration);
     let (height, stiffness) = (RADIUS + gap(setting.shift, inelasticity), OMEGA * OMEGA);
     format!(

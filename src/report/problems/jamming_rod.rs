@@ -6,7 +6,7 @@
 //! The rod is a thin rhombus with sharp ends. Friction acts on the surface of the floor: its arm is the height of the centre. The
 //! tip starts with an overlap of the size that bears the weight.
 
-use super::{Class, Constant, EventTiming, Problem, Setting, Truth};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, Truth};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -59,8 +59,8 @@ const STIFFNESS: f64 = 1e6;
 const GRAVITY: f64 = 9.81;
 
 /// The rod of 1 kg, with an overlap of the tip in m at the start.
-pub fn scene(setting: &Setting, duration: f64, overlap: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+pub fn scene(setting: &ProblemSetting, duration: f64, overlap: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let angle = ANGLE.to_radians();
     let height = HALF * libm::sin(angle) - overlap;
     let inertia = HALF * HALF / 3.0;

@@ -8,7 +8,7 @@ use std::f64::consts::{PI, TAU};
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -60,12 +60,12 @@ pub fn state(time: f64) -> (DVec2, DVec2) {
     (DVec2::new(cos - ECCENTRICITY, minor * sin), DVec2::new(-sin, minor * cos) * rate)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     scene_of(setting, duration, ECCENTRICITY)
 }
 
 /// The planet on an ellipse of any eccentricity.
-pub fn scene_of(setting: &Setting, duration: f64, eccentricity: f64) -> String {
+pub fn scene_of(setting: &ProblemSetting, duration: f64, eccentricity: f64) -> String {
     let clock = setting.clock(duration);
     let (farthest, speed) = (1.0 + eccentricity, ((1.0 - eccentricity) / (1.0 + eccentricity)).sqrt());
     format!(

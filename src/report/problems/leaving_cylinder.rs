@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -52,7 +52,7 @@ pub const GRAVITY: f64 = 9.81;
 const SPEED: f64 = 0.5;
 
 /// The disc of 1 kg on the cylinder, with a contact of a stiffness in N/m.
-pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, stiffness: f64) -> String {
     let clock = setting.clock(duration);
     let far = RADII[0] + RADII[1];
     let height = far - (GRAVITY - SPEED * SPEED / far) / stiffness;

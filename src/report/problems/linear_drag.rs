@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -48,7 +48,7 @@ pub fn state(time: f64) -> (DVec2, DVec2) {
     (terminal * time - (start - terminal) * (libm::expm1(-RATE * time) / RATE), terminal + (start - terminal) * decay)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, gravity: (0, -9.81), forces: [Drag(linear: 0.5)],

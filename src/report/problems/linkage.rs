@@ -31,7 +31,7 @@ pub fn hanging(angle: f64) -> DVec2 {
 
 /// A link of a chain.
 #[derive(Clone, Copy, Debug)]
-pub struct Link {
+pub struct ChainLink {
     /// In kg.
     pub mass: f64,
     /// In m.
@@ -52,9 +52,9 @@ pub struct Chain {
 }
 
 /// A chain that hangs in the origin.
-pub fn chain(name: &str, links: &[Link]) -> Chain {
+pub fn chain(name: &str, links: &[ChainLink]) -> Chain {
     let mut chain = Chain { bodies: String::new(), joints: String::new(), end: DVec2::ZERO };
-    for (number, Link { mass, length, angle }) in links.iter().copied().enumerate() {
+    for (number, ChainLink { mass, length, angle }) in links.iter().copied().enumerate() {
         let along = hanging(angle) * length;
         let middle = chain.end + 0.5 * along;
         chain.bodies += &turned_bar(&format!("{name}{number}"), middle, angle - FRAC_PI_2, (mass, length));

@@ -2,8 +2,8 @@
 //! pendulum whose light links vibrate under tension with up to 2340 rad/s. The reference solves Lagrange's equations,
 //! and independently the equations of bodies with multipliers. SI units.
 
-use super::linkage::{Chain, Link, chain, turned_off};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::linkage::{Chain, ChainLink, chain, turned_off};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -48,7 +48,7 @@ const START: f64 = 30.0;
 
 /// The scene with other masses of a link and of the load in kg. It begins at an angle in degrees from the vertical.
 pub fn scene_of(clock: &str, (link, load): (f64, f64), start: f64) -> String {
-    let links = [Link { mass: link, length: 0.2, angle: start.to_radians() }; COUNT];
+    let links = [ChainLink { mass: link, length: 0.2, angle: start.to_radians() }; COUNT];
     let Chain { bodies, joints, end } = chain("link", &links);
     let last = COUNT - 1;
     format!(
@@ -59,7 +59,7 @@ pub fn scene_of(clock: &str, (link, load): (f64, f64), start: f64) -> String {
     )
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     scene_of(&setting.clock(duration), (0.01, 100.0), START)
 }
 

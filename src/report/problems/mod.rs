@@ -4,10 +4,10 @@
 //! line in [`ALL`]. It becomes at once a test at a stated tick and a line in the convergence test.
 //!
 //! ```
-//! use jostle_report::problems::{Setting, linear_drag};
+//! use jostle_report::problems::{ProblemSetting, linear_drag};
 //!
 //! let problem = linear_drag::PROBLEM;
-//! let setting = Setting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..Setting::default() };
+//! let setting = ProblemSetting { method: "VelocityVerlet", tick: problem.tick, shift: 0.0, ..ProblemSetting::default() };
 //! assert!(Some(problem.measure(&setting)?) <= problem.bound(2, problem.tick));
 //! # Ok::<(), Box<dyn std::error::Error>>(())
 //! ```
@@ -73,7 +73,7 @@ use jostle_engine::integrate::{Description, Methods};
 use jostle_engine::scene::Source;
 use jostle_engine::tick::Failure;
 
-pub use jostle_engine::integrate::clock::EventTiming;
+pub use jostle_engine::integrate::clock_section::EventTiming;
 pub use truth::Truth;
 
 /// All problems.
@@ -182,7 +182,7 @@ impl Class {
 
 /// How a problem is to be run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Setting<'a> {
+pub struct ProblemSetting<'a> {
     /// Name of the method.
     pub method: &'a str,
     /// Length of a tick in seconds.
@@ -193,14 +193,14 @@ pub struct Setting<'a> {
     pub events: EventTiming,
 }
 
-impl Default for Setting<'_> {
+impl Default for ProblemSetting<'_> {
     /// The engine chooses.
     fn default() -> Self {
         Self { method: ClockSection::AUTO, tick: 1e-3, shift: 0.0, events: EventTiming::Auto }
     }
 }
 
-impl Setting<'_> {
+impl ProblemSetting<'_> {
     /// The section `clock` of a scene that lasts `duration` seconds.
     pub fn clock(&self, duration: f64) -> String {
         let Self { method, tick, events, .. } = self;
@@ -255,7 +255,7 @@ pub struct Problem {
     /// Whether events are located under every method: the scene's friction sticks without any give.
     pub always_located: bool,
     /// The scene as RON text, of a given length in seconds.
-    pub scene: fn(&Setting, f64) -> String,
+    pub scene: fn(&ProblemSetting, f64) -> String,
     /// The error of a state, given time and shift in seconds.
     pub error: fn(&Simulation, f64, f64) -> f64,
     /// Bound of the leading error term at a tick, for a method by whole ticks that shows an order. `None` if no bound
@@ -290,7 +290,7 @@ impl Problem {
     ///
     /// # Errors
     /// When the scene is refused: an unknown method, a tick that cannot be.
-    pub fn load(&self, setting: &Setting) -> Result<Simulation, Box<dyn Error>> {
+    pub fn load(&self, setting: &ProblemSetting) -> Result<Simulation, Box<dyn Error>> {
         let text = (self.scene)(setting, self.duration());
         Simulation::load(&Source::new(format!("{}.ron", self.name), text)).map_err(Into::into)
     }
@@ -299,7 +299,7 @@ impl Problem {
     ///
     /// # Errors
     /// When the scene is refused or a number stops being finite.
-    pub fn measure(&self, setting: &Setting) -> Result<f64, Box<dyn Error>> {
+    pub fn measure(&self, setting: &ProblemSetting) -> Result<f64, Box<dyn Error>> {
         self.run(&mut self.load(setting)?, setting).map_err(Into::into)
     }
 
@@ -307,7 +307,7 @@ impl Problem {
     ///
     /// # Errors
     /// When a number stops being finite.
-    pub fn run(&self, simulation: &mut Simulation, setting: &Setting) -> Result<f64, Failure> {
+    pub fn run(&self, simulation: &mut Simulation, setting: &ProblemSetting) -> Result<f64, Failure> {
         let mut greatest = 0.0_f64;
         for &time in self.samples {
             simulation.run_to_tick((time / setting.tick).round() as u64)?;
@@ -341,7 +341,7 @@ impl Problem {
 /// # Panics
 /// Never: the scene it reads is part of the engine.
 pub fn methods() -> Vec<Description> {
-    let setting = Setting { tick: 1.0, ..Setting::default() };
+    let setting = ProblemSetting { tick: 1.0, ..ProblemSetting::default() };
     let simulation = constant_acceleration::PROBLEM.load(&setting).expect("the scene is correct");
     simulation.resource::<Methods>().0.clone()
 }

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -53,7 +53,7 @@ pub fn after() -> [DVec2; 2] {
     [DVec2::new(numbers[0], numbers[1]), DVec2::new(numbers[2], numbers[3])]
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let x = -(REACH * REACH - OFFSET * OFFSET).sqrt() - SPEED * setting.shift;
     format!(

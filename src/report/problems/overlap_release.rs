@@ -5,7 +5,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -76,7 +76,7 @@ pub fn state(time: f64) -> [(DVec2, DVec2); 2] {
 }
 
 /// A shift starts so much later on the way apart.
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let stiffness = 2.0 * STIFFNESS;
     let disc = |name: &str, index: usize| {

@@ -8,7 +8,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::linkage::{bar, greatest, hanging};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -50,7 +50,7 @@ const LENGTH: f64 = 1.0;
 /// At the start, in degrees from the downward vertical.
 const START: f64 = 60.0;
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut joints) = (String::new(), String::new());
     let along = hanging(START.to_radians()) * LENGTH;

@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::linkage::{greatest, hanging};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -61,7 +61,7 @@ pub fn scene_of(clock: &str, starts: &[u32]) -> String {
     format!("Scene({clock}, gravity: (0, -9.81), contacts: None, bodies: [{bodies}], joints: [{joints}])")
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     scene_of(&setting.clock(duration), &STARTS)
 }
 

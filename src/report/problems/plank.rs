@@ -6,7 +6,7 @@
 use std::fmt::Write;
 
 use super::linkage::greatest;
-use super::{Class, Problem, Setting};
+use super::{Class, Problem, ProblemSetting};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -53,7 +53,7 @@ pub fn forces() -> [f64; 5] {
 }
 
 /// Feet of 1 kg each and a board bring the centre of mass to its place.
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let board = MASS - FEET.len() as f64;
     let middle = (MASS * CENTRE - FEET.iter().sum::<f64>()) / board;

@@ -6,7 +6,7 @@
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -60,7 +60,7 @@ pub fn oblique(time: f64) -> Option<DVec2> {
     Some(DVec2::new(numbers[row], numbers[row + 1]))
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let angle = 40.0_f64.to_radians();
     let (x, y) = (30.0 * libm::cos(angle), 30.0 * libm::sin(angle));

@@ -9,7 +9,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::linkage::greatest;
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -71,7 +71,7 @@ fn place(mass: usize, time: f64) -> DVec2 {
     DVec2::new(cos, sin) * radius() + DVec2::new(0.0, -0.5 * GRAVITY * time * time)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut bodies, mut joints) = (String::new(), String::new());
     for mass in 0..COUNT {

@@ -4,7 +4,7 @@
 //! The block starts at rest with the depth of its corner that bears the force of a rigid block. With a contact of stiffness `k` the
 //! error of the ideal falls as `1/k`. The run ends before the other corner strikes. Friction acts on the surface of the floor.
 
-use super::{Class, Constant, EventTiming, Problem, Setting, Truth};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, Truth};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -48,8 +48,8 @@ const MASS: f64 = 5.0;
 const GRAVITY: f64 = 9.81;
 
 /// The block on its right corner, at half the tilt of tipping over. Its contact has a stiffness in N/m.
-pub fn scene(setting: &Setting, duration: f64, stiffness: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+pub fn scene(setting: &ProblemSetting, duration: f64, stiffness: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let angle = -0.5 * libm::atan(HALVES[0] / HALVES[1]);
     let (sin, cos) = libm::sincos(angle);
     // From the centre to the corner.

@@ -6,7 +6,7 @@ use std::fmt::Write;
 
 use glam::DVec2;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -65,7 +65,7 @@ pub fn breathing() -> f64 {
     (3.0 * SPIN * SPIN + 4.0 * STIFFNESS * sin * sin / MASS).sqrt()
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let radius = radius();
     let (mut bodies, mut springs) = (String::new(), String::new());

@@ -1,6 +1,6 @@
 //! A wheel on a hinge under a controller: `I q'' = kp (target - q) - kd q'`, a damped oscillator about its target. SI units.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -51,7 +51,7 @@ pub fn angle(time: f64) -> f64 {
     TARGET * (1.0 - libm::exp(-decay * time) * (cos + decay / rate * sin))
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (kp, kd) = GAINS;
     format!(

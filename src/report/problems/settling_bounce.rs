@@ -6,7 +6,7 @@
 
 use std::f64::consts::PI;
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -55,7 +55,7 @@ pub const RADIUS: f64 = 0.1;
 
 /// A part of the motion: `gap = center + cosine cos(w t) + sine sin(w t)`, or a parabola where `w` is zero.
 #[derive(Clone, Copy, Debug)]
-pub struct Part {
+pub struct BouncePart {
     /// When it begins, in s.
     pub begin: f64,
     /// Gap in m at its beginning, negative for an overlap.
@@ -66,7 +66,7 @@ pub struct Part {
     pub rate: f64,
 }
 
-impl Part {
+impl BouncePart {
     /// Gap in m and velocity in m/s at `time`.
     fn state(&self, time: f64) -> (f64, f64) {
         let since = time - self.begin;
@@ -82,14 +82,14 @@ impl Part {
 }
 
 /// All parts of the motion, and the overlap in m and the time in s at which it ends.
-pub fn history() -> (Vec<Part>, f64, f64) {
+pub fn history() -> (Vec<BouncePart>, f64, f64) {
     let (loading, unloading) = rates();
     let sinking = |rate: f64| GRAVITY / (rate * rate);
-    let mut parts = vec![Part { begin: 0.0, gap: HEIGHT, velocity: 0.0, rate: 0.0 }];
+    let mut parts = vec![BouncePart { begin: 0.0, gap: HEIGHT, velocity: 0.0, rate: 0.0 }];
     let mut time = (2.0 * HEIGHT / GRAVITY).sqrt();
     let mut speed = GRAVITY * time;
     loop {
-        parts.push(Part { begin: time, gap: 0.0, velocity: -speed, rate: loading });
+        parts.push(BouncePart { begin: time, gap: 0.0, velocity: -speed, rate: loading });
         time += (PI - libm::atan(speed * loading / GRAVITY)) / loading;
         let mut deepest = sinking(loading) + sinking(loading).hypot(speed / loading);
         // As long as it does not get off, it swings until it turns inside the band.
@@ -97,22 +97,22 @@ pub fn history() -> (Vec<Part>, f64, f64) {
             if deepest <= sinking(unloading) {
                 return (parts, deepest, time);
             }
-            parts.push(Part { begin: time, gap: -deepest, velocity: 0.0, rate: unloading });
+            parts.push(BouncePart { begin: time, gap: -deepest, velocity: 0.0, rate: unloading });
             time += PI / unloading;
             let highest = 2.0 * sinking(unloading) - deepest;
             if highest >= sinking(loading) {
                 return (parts, highest, time);
             }
-            parts.push(Part { begin: time, gap: -highest, velocity: 0.0, rate: loading });
+            parts.push(BouncePart { begin: time, gap: -highest, velocity: 0.0, rate: loading });
             time += PI / loading;
             deepest = 2.0 * sinking(loading) - highest;
         }
-        parts.push(Part { begin: time, gap: -deepest, velocity: 0.0, rate: unloading });
+        parts.push(BouncePart { begin: time, gap: -deepest, velocity: 0.0, rate: unloading });
         let swing = deepest - sinking(unloading);
         let leaving = libm::acos(-sinking(unloading) / swing);
         time += leaving / unloading;
         speed = unloading * swing * libm::sin(leaving);
-        parts.push(Part { begin: time, gap: 0.0, velocity: speed, rate: 0.0 });
+        parts.push(BouncePart { begin: time, gap: 0.0, velocity: speed, rate: 0.0 });
         time += 2.0 * speed / GRAVITY;
     }
 }
@@ -132,7 +132,7 @@ pub fn state(time: f64) -> (f64, f64) {
     under_way.state(time)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (gap, velocity) = state(setting.shift);
     let height = RADIUS + gap;

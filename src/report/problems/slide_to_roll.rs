@@ -5,7 +5,7 @@
 //! at rest. Then the full spring swings forever without damping, so the disc rolls and sways. All three phases have
 //! closed forms.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -75,7 +75,7 @@ pub fn state(time: f64) -> (f64, f64) {
     (SPEED * time - sum, -ARM / INERTIA * sum)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, gravity: (0, -{GRAVITY:?}), contacts: Penalty(tangential: Spring(ratio: {:?})),

@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::linkage::bar;
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -50,7 +50,7 @@ pub fn piston(time: f64) -> f64 {
     CRANK * cos + (ROD * ROD - CRANK * CRANK * sin * sin).sqrt()
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let ends = [0.0, CRANK, CRANK + ROD].map(|x| DVec2::new(x, 0.0));
     let (crank, rod) = (bar("crank", ends[0], ends[1], 0.4), bar("rod", ends[1], ends[2], 0.3));

@@ -5,7 +5,7 @@
 //! The spring is soft, so that the tick resolves the beginning. The force has a kink at its end. At the stop the
 //! velocity becomes exactly zero. So the way is off by at most a tick of the last velocity.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -63,7 +63,7 @@ pub fn state(time: f64) -> (f64, f64) {
     (stretch + speed * since - 0.5 * FRICTION * GRAVITY * since * since, speed - FRICTION * GRAVITY * since)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let height = RADIUS - GRAVITY / STIFFNESS;
     format!(

@@ -7,7 +7,7 @@
 use std::fmt::Write;
 
 use super::linkage::greatest;
-use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -65,8 +65,8 @@ pub fn acceleration(height: f64, angle: f64) -> f64 {
     PULL * height * (height * libm::cos(angle) - RADII[1]) / (INERTIA + MASS * height * height)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let (mut spools, mut pulls) = (String::new(), String::new());
     for (number, angle) in ANGLES.into_iter().map(radians).enumerate() {
         let _ = write!(

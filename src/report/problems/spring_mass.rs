@@ -2,7 +2,7 @@
 //!
 //! The spring has zero length, so it is linear through its middle.
 
-use super::{Class, Constant, Problem, Setting, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -49,7 +49,7 @@ pub fn state(time: f64) -> (f64, f64) {
     (START * cos + SPEED / OMEGA * sin, SPEED * cos - START * OMEGA * sin)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     format!(
         "Scene({clock}, forces: [Spring(a: \"mass\", b: World, stiffness: 100, length: 0)],

@@ -10,7 +10,7 @@
 use std::f64::consts::PI;
 use std::fmt::Write;
 
-use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -79,8 +79,8 @@ pub fn state(friction: f64, time: f64) -> (f64, f64) {
     (2.0 * about - to_slip + BELT * (since - slips), BELT)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let height = RADIUS - GRAVITY / FLOOR;
     let (mut bodies, mut springs, mut materials) = (String::new(), String::new(), String::new());
     for (index, friction) in STATIC.into_iter().enumerate() {

@@ -6,7 +6,7 @@
 //!
 //! The disc is so slow that its overlap is 1e-8 of its radius. As in the reference, the arm of friction is the radius.
 
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -61,7 +61,7 @@ pub fn sweep() -> Vec<(f64, f64)> {
 }
 
 /// The impact at any `psi1`. A shift lets the disc start that much earlier on its straight way.
-pub fn scene(setting: &Setting, duration: f64, psi1: f64) -> String {
+pub fn scene(setting: &ProblemSetting, duration: f64, psi1: f64) -> String {
     let clock = setting.clock(duration);
     let gap = SPEED * (LEAD * CONTACT_TIME + setting.shift);
     let (height, along) = (RADIUS + gap, psi1 * SPEED);

@@ -6,7 +6,7 @@
 //! keeps them, and its acceleration is constant.
 
 use super::linkage::greatest;
-use super::{Class, Constant, EventTiming, Problem, Setting, rounding_of};
+use super::{Class, Constant, EventTiming, Problem, ProblemSetting, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -72,8 +72,8 @@ impl Incline {
 }
 
 /// The box on an incline.
-pub fn scene(setting: &Setting, duration: f64, incline: &Incline) -> String {
-    let clock = Setting { events: EventTiming::Located, ..*setting }.clock(duration);
+pub fn scene(setting: &ProblemSetting, duration: f64, incline: &Incline) -> String {
+    let clock = ProblemSetting { events: EventTiming::Located, ..*setting }.clock(duration);
     let Incline { slope, friction, stiffness, restitution } = incline;
     let (sin, cos) = libm::sincos(libm::atan(*slope));
     let (height, angle) = incline.balance();

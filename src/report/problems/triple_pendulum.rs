@@ -5,8 +5,8 @@
 
 use std::f64::consts::PI;
 
-use super::linkage::{Chain, Link, chain, turned_off};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::linkage::{Chain, ChainLink, chain, turned_off};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -43,9 +43,9 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/J04_triple_pendulum
 /// Masses in kg, lengths in m and angles at the start in degrees from the downward vertical.
 const RODS: [(f64, f64, f64); 3] = [(1.0, 1.0, 100.0), (0.8, 0.8, 80.0), (0.6, 0.6, 120.0)];
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
-    let links = RODS.map(|(mass, length, degrees)| Link { mass, length, angle: degrees.to_radians() });
+    let links = RODS.map(|(mass, length, degrees)| ChainLink { mass, length, angle: degrees.to_radians() });
     let Chain { bodies, joints, .. } = chain("rod", &links);
     format!("Scene({clock}, gravity: (0, -9.81), contacts: None, bodies: [{bodies}], joints: [{joints}])")
 }

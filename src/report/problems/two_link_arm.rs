@@ -1,8 +1,8 @@
 //! Two arms of two uniform rods, 0.5 and 0.4 m long. One swings freely. Controllers on both joints move the other, each
 //! with the torque `kp (target - angle) - kd rate`. Full equations of both links. SI units.
 
-use super::linkage::{Chain, Link, chain, greatest, turned_off};
-use super::{Class, Constant, Problem, Setting, Truth, rounding_of};
+use super::linkage::{Chain, ChainLink, chain, greatest, turned_off};
+use super::{Class, Constant, Problem, ProblemSetting, Truth, rounding_of};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -39,9 +39,9 @@ pub const TRUTH: &str = include_str!("../../../assets/truths/J05_two_link_arm.js
 /// Masses in kg, lengths in m and angles at the start in degrees from the downward vertical.
 const LINKS: [(f64, f64, f64); 2] = [(1.0, 0.5, 30.0), (0.8, 0.4, 75.0)];
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
-    let links = LINKS.map(|(mass, length, degrees)| Link { mass, length, angle: degrees.to_radians() });
+    let links = LINKS.map(|(mass, length, degrees)| ChainLink { mass, length, angle: degrees.to_radians() });
     let [free, driven] = ["free", "driven"].map(|name| chain(name, &links));
     let (Chain { bodies, joints, .. }, Chain { bodies: more_bodies, joints: more_joints, .. }) = (free, driven);
     // The angle of the first joint counts from the x axis: 60 degrees from the downward vertical are -30.

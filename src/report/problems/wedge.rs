@@ -8,7 +8,7 @@ use std::fmt::Write;
 use glam::DVec2;
 
 use super::linkage::greatest;
-use super::{Class, Constant, Problem, Setting};
+use super::{Class, Constant, Problem, ProblemSetting};
 use jostle_engine::Simulation;
 
 /// The problem.
@@ -73,7 +73,7 @@ fn place(degrees: u32, time: f64) -> DVec2 {
     DVec2::new(across, (RADIUS - overlap) / sin + up)
 }
 
-fn scene(setting: &Setting, duration: f64) -> String {
+fn scene(setting: &ProblemSetting, duration: f64) -> String {
     let clock = setting.clock(duration);
     let (mut discs, mut wedges) = (String::new(), String::new());
     for (degrees, middle) in GROOVES {

@@ -1,7 +1,7 @@
 //! Causes in the scene itself: bodies that overlap at the start, and drag that is too strong for the tick.
 
 use super::energy::UNACCOUNTED;
-use super::{Cause, Evidence, Part, Trust};
+use super::{Cause, Evidence, Trust, VerdictPart};
 use crate::Remedy;
 use jostle_engine::contacts::search::OverlapAtStart;
 use jostle_engine::tick::State;
@@ -27,7 +27,7 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
         percent(share)
     );
     let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());
-    (share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(Part::Model), what, remedy })
+    (share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy })
 }
 
 /// Drag or a damper takes more than the whole velocity in a step. An explicit method then reverses the velocity and makes it

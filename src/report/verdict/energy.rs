@@ -1,6 +1,6 @@
 //! Energy that the ledger misses, or that came out of nowhere.
 
-use super::{Cause, Evidence, Part, Trust, near, ticks};
+use super::{Cause, Evidence, Trust, VerdictPart, near, ticks};
 use crate::Remedy;
 use jostle_language::numbers::{number, percent};
 
@@ -51,7 +51,7 @@ pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let given = card.given_back;
     let share = given / card.energy_scale;
-    let trust = if share > GIVEN { Trust::Not } else { Trust::ButNot(Part::Energy) };
+    let trust = if share > GIVEN { Trust::Not } else { Trust::ButNot(VerdictPart::Energy) };
     let what = format!(
         "friction and contacts have given {} J, though they can only take energy. Wedged contacts that should rest sink in",
         number(given)

@@ -7,10 +7,10 @@
 mod ahead;
 mod asked;
 mod energy;
+mod far_places;
 mod near;
 mod overlap;
 mod part;
-mod place;
 mod ticks;
 mod trajectory_error;
 mod voice;
@@ -19,10 +19,10 @@ use bevy_ecs::prelude::*;
 
 use super::card::{Card, name};
 use crate::estimate::EstimatedError;
-use jostle_engine::constraints::Kind;
-use jostle_engine::tick::{Failure, State, Wrong};
+use jostle_engine::constraints::RowKind;
+use jostle_engine::tick::{Failure, FailureKind, State};
 use jostle_language::numbers::{number, percent, rough};
-use part::Part;
+use part::VerdictPart;
 
 /// The evidence from which a verdict follows.
 pub(super) struct Evidence<'a> {
@@ -36,7 +36,7 @@ pub(super) enum Trust {
     /// Not at all: the run is not the motion of the scene.
     Not,
     /// Except for a part.
-    ButNot(Part),
+    ButNot(VerdictPart),
 }
 
 /// A likely reason for which a run is wrong.
@@ -59,7 +59,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ahead::overlaps_at_the_start,
     ahead::drag,
     near::attraction,
-    place::rounding,
+    far_places::rounding,
     energy::not_finite,
     ticks::unseen_swing,
     energy::unaccounted,
@@ -94,33 +94,34 @@ impl Evidence<'_> {
 
     /// The likely cause of a failed run, and a remedy to try.
     pub fn why(&self, failure: &Failure) -> String {
-        if matches!(failure.wrong, Wrong::Steps(_)) {
+        if matches!(failure.wrong, FailureKind::Steps(_)) {
             return near::of_endless_steps(self);
         }
-        if matches!(failure.wrong, Wrong::Pairs(_)) {
+        if matches!(failure.wrong, FailureKind::Pairs(_)) {
             return "use fewer bodies, keep them apart, or take a finer tick if they go far in one. Bodies that are not to touch \
                     take `collides: false`"
                 .to_owned();
         }
-        if failure.wrong == Wrong::Contradiction {
+        if failure.wrong == FailureKind::Contradiction {
             return "give the motor a `limit`, move the limits of the joint that stops it, or remove one of them"
                 .to_owned();
         }
         let rows = self.world.resource::<State>().rows().all();
-        let driven = rows.iter().any(|row| row.kind == Kind::Velocity && !row.gives_way());
-        if matches!(failure.wrong, Wrong::Joint { .. }) && driven {
+        let driven = rows.iter().any(|row| row.kind == RowKind::Velocity && !row.gives_way());
+        if matches!(failure.wrong, FailureKind::Joint { .. }) && driven {
             return "a motor without a `limit` drives on with any force, also into a dead point, where bars are in line. Give it a \
                     `limit`, or reverse it before that"
                 .to_owned();
         }
-        if matches!(failure.wrong, Wrong::Torn(_) | Wrong::Lost(_) | Wrong::Gone(_)) {
+        if matches!(failure.wrong, FailureKind::Torn(_) | FailureKind::Lost(_) | FailureKind::Gone(_)) {
             return "look at the changes that a plugin makes to the world".to_owned();
         }
-        if matches!(failure.wrong, Wrong::Behind(_)) {
+        if matches!(failure.wrong, FailureKind::Behind(_)) {
             return "stiffness and tick do not matter here: the wall is open on the side that the body hit".to_owned();
         }
-        let deep = matches!(failure.wrong, Wrong::Crossed(_) | Wrong::Sunk(_));
-        let known = [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, place::rounding];
+        let deep = matches!(failure.wrong, FailureKind::Crossed(_) | FailureKind::Sunk(_));
+        let known =
+            [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, far_places::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             if deep {
                 return "a stiffer contact bears more, and a finer tick sees bodies before they are deep in each other"

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use super::{Cause, Evidence, Part, Trust};
+use super::{Cause, Evidence, Trust, VerdictPart};
 use jostle_engine::tick::{State, index_of};
 use jostle_language::numbers::number;
 
@@ -60,7 +60,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
     let remedy = format!("a `stiffness` some {times} times as high{with}: overlaps are then about a tenth of a radius");
-    Some(Cause { trust: Trust::ButNot(Part::Model), what, remedy: Some(remedy) })
+    Some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy: Some(remedy) })
 }
 
 /// Stiffness in N/m of the softest atom of two sides; infinite if neither side has an atom.

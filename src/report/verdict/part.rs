@@ -6,7 +6,7 @@ use super::at;
 
 /// A part of the results of a run.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(crate) enum Part {
+pub(crate) enum VerdictPart {
     /// The numbers belong to the scene, but its springs give way too far for the model to mean hard bodies.
     Model,
     /// Gains and losses of energy, and which bodies are at rest.
@@ -29,7 +29,7 @@ pub(crate) enum Part {
     LastDigits,
 }
 
-impl Part {
+impl VerdictPart {
     /// The time in s until which places can be trusted, if not to the end.
     pub fn places_until(&self) -> Option<f64> {
         match self {
@@ -52,7 +52,7 @@ impl Part {
     }
 }
 
-impl fmt::Display for Part {
+impl fmt::Display for VerdictPart {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
         match self {
             Self::Model => f.write_str("the model at contacts"),

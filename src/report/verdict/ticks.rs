@@ -2,7 +2,7 @@
 
 use std::f64::consts::TAU;
 
-use super::{Cause, Evidence, Part, Trust, at};
+use super::{Cause, Evidence, Trust, VerdictPart, at};
 use crate::Remedy;
 use crate::advice::rounded_down;
 use crate::estimate::EstimatedError;
@@ -71,7 +71,7 @@ pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
         },
     );
     let what = format!("{whose} lasts only {ticks:.1} ticks");
-    (ticks < FEWEST_TICKS).then(|| Cause { trust: Trust::ButNot(Part::Impacts), what, remedy: evidence.finer() })
+    (ticks < FEWEST_TICKS).then(|| Cause { trust: Trust::ButNot(VerdictPart::Impacts), what, remedy: evidence.finer() })
 }
 
 /// A body moves farther in a tick than the smallest radius.
@@ -82,5 +82,9 @@ pub(super) fn far_travel_unseen(evidence: &Evidence) -> Option<Cause> {
         .map_or_else(|| "a body".to_owned(), |far| format!("`{}` at {}", evidence.name(far.body), at(far.time)));
     let what = format!("{who} travelled {share:.1} radii in one tick and may have missed a contact");
     let unseen = world.resource::<State>().contact_law().is_some() && !card.located;
-    (share > 1.0 && unseen).then(|| Cause { trust: Trust::ButNot(Part::Meetings), what, remedy: evidence.finer() })
+    (share > 1.0 && unseen).then(|| Cause {
+        trust: Trust::ButNot(VerdictPart::Meetings),
+        what,
+        remedy: evidence.finer(),
+    })
 }

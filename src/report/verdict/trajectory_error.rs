@@ -1,7 +1,7 @@
 //! Inexact places, by the estimated error. Its causes are chaos, events that ticks do not see, and a tick that is too long for
 //! the motion. If there is no estimate, the error of places is not known.
 
-use super::{Cause, Evidence, Part, Trust, at, of_the_way};
+use super::{Cause, Evidence, Trust, VerdictPart, at, of_the_way};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
@@ -14,7 +14,7 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     let missed = evidence.card.missed.clone().filter(|_| !evidence.card.stands)?;
     // If the comparison of runs gives no error, no digit is known.
     let known = evidence.card.error.is_none_or(|error| error.position.discretisation.is_some());
-    let part = if known { Part::LastDigits } else { Part::Places };
+    let part = if known { VerdictPart::LastDigits } else { VerdictPart::Places };
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
 }
 
@@ -38,7 +38,7 @@ pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
         "chaos makes errors grow exponentially. From then on finer runs go elsewhere{first}. That time grows only as the \
          logarithm of the cost of a run"
     );
-    estimated.chaotic.then_some(Cause { trust: Trust::ButNot(Part::PlacesAfter(horizon)), what, remedy: None })
+    estimated.chaotic.then_some(Cause { trust: Trust::ButNot(VerdictPart::PlacesAfter(horizon)), what, remedy: None })
 }
 
 /// The tick is too long for contacts whose beginnings it does not see, or for the motion.
@@ -61,7 +61,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         (None, _) => why,
     };
     let until = error.horizon;
-    let part = until.map_or(Part::FinePlaces, Part::PlacesAfter);
+    let part = until.map_or(VerdictPart::FinePlaces, VerdictPart::PlacesAfter);
     let why = if error.horizon.is_some() { why } else { format!("{why}. The error is {}", of_the_way(share)) };
     let tolerance = evidence.or_tolerance();
     // Beyond a horizon the order at which errors fall is not known.
@@ -80,7 +80,7 @@ pub(super) fn not_run_again(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.known_until().filter(|_| !evidence.card.stands)?;
     let what = "their error is not known. Runs with finer steps cover only the time before".to_owned();
     Some(Cause {
-        trust: Trust::ButNot(Part::UnknownAfter(until)),
+        trust: Trust::ButNot(VerdictPart::UnknownAfter(until)),
         what,
         remedy: Some("`--estimate`, which repeats the whole run".to_owned()),
     })
@@ -93,18 +93,18 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
         return None;
     }
     let known = card.error.as_ref().filter(|error| error.position.sum().is_some());
-    let cause = |part: Part, what: &str, remedy: Option<&str>| {
+    let cause = |part: VerdictPart, what: &str, remedy: Option<&str>| {
         Some(Cause { trust: Trust::ButNot(part), what: what.to_owned(), remedy: remedy.map(str::to_owned) })
     };
     match known.map(|error| error.horizon.filter(|horizon| *horizon < card.time)) {
         Some(Some(horizon)) if !card.by_ticks() => {
-            cause(Part::PlacesAfter(horizon), "runs with other tolerances go elsewhere from then on", None)
+            cause(VerdictPart::PlacesAfter(horizon), "runs with other tolerances go elsewhere from then on", None)
         }
         Some(_) => None,
         None if card.by_ticks() => {
             let what = "their error is not known. Energy says nothing of a light body among heavy ones";
-            cause(Part::UnknownPlaces, what, Some("`--estimate`"))
+            cause(VerdictPart::UnknownPlaces, what, Some("`--estimate`"))
         }
-        None => cause(Part::Places, "runs with other tolerances differ too much to give an error", None),
+        None => cause(VerdictPart::Places, "runs with other tolerances differ too much to give an error", None),
     }
 }

@@ -1,7 +1,7 @@
 //! The wording of a verdict that trusts at least a part of a run. Trusted parts come first, then doubted parts, then the remedy.
 //! A doubted part is never among the trusted ones.
 
-use super::{Cause, Evidence, Part, Trust, at, energy, of_the_way, places};
+use super::{Cause, Evidence, Trust, VerdictPart, at, energy, of_the_way, places};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::{percent, rough};
@@ -10,7 +10,7 @@ use jostle_language::numbers::{percent, rough};
 const MOST: usize = 3;
 
 /// The verdict with these doubts, the gravest first. Without doubts it is praise.
-pub(super) fn told(evidence: &Evidence, doubts: &[(Part, Cause)]) -> String {
+pub(super) fn told(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> String {
     if doubts.is_empty() {
         return praise(evidence);
     }
@@ -35,12 +35,12 @@ pub(super) fn told(evidence: &Evidence, doubts: &[(Part, Cause)]) -> String {
     trusted.into_iter().chain(doubted).chain(help).collect::<Vec<_>>().join(" ")
 }
 
-fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
+fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> {
     let (card, state) = (evidence.card, evidence.world.resource::<State>());
-    let doubted = |part: &Part| doubts.iter().any(|(other, _)| other == part);
+    let doubted = |part: &VerdictPart| doubts.iter().any(|(other, _)| other == part);
     let mut trusted = Vec::new();
     let until = doubts.iter().filter_map(|(part, _)| part.places_until()).reduce(f64::min);
-    if !doubted(&Part::Energy) {
+    if !doubted(&VerdictPart::Energy) {
         trusted.push(match card.energy_error() {
             0.0 => "energy (residual 0)".to_owned(),
             error => format!("energy (residual {})", percent(error)),
@@ -49,7 +49,7 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
         let moved = (0..bodies.len()).filter(|body| bodies.dynamic[*body]);
         let (count, resting) =
             moved.fold((0, 0), |(count, resting), body| (count + 1, resting + usize::from(bodies.is_asleep(body))));
-        if until.is_some() && count > 1 && !doubted(&Part::Meetings) {
+        if until.is_some() && count > 1 && !doubted(&VerdictPart::Meetings) {
             trusted.push("statistics".to_owned());
         }
         match resting {
@@ -58,7 +58,7 @@ fn trusted(evidence: &Evidence, doubts: &[(Part, Cause)]) -> Vec<String> {
             some => trusted.push(format!("that {some} of {count} bodies rest")),
         }
     }
-    if stands(state) || doubted(&Part::Places) || doubted(&Part::UnknownPlaces) {
+    if stands(state) || doubted(&VerdictPart::Places) || doubted(&VerdictPart::UnknownPlaces) {
         return trusted;
     }
     // The error on the card holds until the same time.
@@ -102,8 +102,8 @@ fn praise(evidence: &Evidence) -> String {
 }
 
 /// The doubts among causes, or as the error the first cause that leaves nothing to trust.
-pub(super) fn doubts(causes: Vec<Cause>) -> Result<Vec<(Part, Cause)>, Cause> {
-    let mut doubts: Vec<(Part, Cause)> = Vec::new();
+pub(super) fn doubts(causes: Vec<Cause>) -> Result<Vec<(VerdictPart, Cause)>, Cause> {
+    let mut doubts: Vec<(VerdictPart, Cause)> = Vec::new();
     for cause in causes {
         match cause.trust.clone() {
             Trust::Not => return Err(cause),

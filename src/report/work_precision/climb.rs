@@ -1,7 +1,7 @@
 //! The climb of the ladder: every course has ticks from coarse to fine. The cheapest tick of all courses is next. It
 //! ends when errors reach the floor of the reference, or time is up.
 
-use super::{Budget, Course, Outcome, Setting, USELESS};
+use super::{Budget, MethodChoice, Setting, SettingOutcome, USELESS};
 use jostle_language::numbers::number;
 
 /// Courses that fail so many times one after the other are left.
@@ -37,7 +37,7 @@ pub(crate) trait Subject {
     type Wrong;
 
     /// Runs it with a tick; the setting, with its time if that is known, and the seconds that it took.
-    fn run(&self, course: Course, tick: f64) -> Result<(Setting, f64), Self::Wrong>;
+    fn run(&self, course: MethodChoice, tick: f64) -> Result<(Setting, f64), Self::Wrong>;
 
     /// The reason why smaller errors than this have no meaning at a tick, if there is one.
     fn is_floor(&self, error: f64, tick: f64) -> Option<String>;
@@ -53,7 +53,7 @@ pub(crate) struct Rules {
 
 /// A course on the ladder.
 struct Climber<I: Iterator<Item = f64>> {
-    course: Course,
+    course: MethodChoice,
     ticks: std::iter::Peekable<I>,
     trials: Vec<f64>,
     settings: Vec<Setting>,
@@ -70,11 +70,11 @@ struct Climber<I: Iterator<Item = f64>> {
 #[expect(clippy::type_complexity, reason = "two lists")]
 pub(crate) fn climb<S: Subject, I: Iterator<Item = f64>>(
     subject: &S,
-    courses: impl Iterator<Item = (Course, Rungs<I>)>,
+    courses: impl Iterator<Item = (MethodChoice, Rungs<I>)>,
     rules: &Rules,
     budget: &Budget,
-) -> Result<(Vec<Setting>, Vec<(Course, String)>), S::Wrong> {
-    let climber = |(course, rungs): (Course, Rungs<I>)| Climber {
+) -> Result<(Vec<Setting>, Vec<(MethodChoice, String)>), S::Wrong> {
+    let climber = |(course, rungs): (MethodChoice, Rungs<I>)| Climber {
         course,
         ticks: rungs.ticks.peekable(),
         trials: rungs.trials,
@@ -133,7 +133,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         let Some(tick) = self.ticks.next() else { return Ok(()) };
         let (setting, spent) = subject.run(self.course, tick)?;
         match setting.outcome {
-            Outcome::Failed(_) => self.failures += 1,
+            SettingOutcome::Failed(_) => self.failures += 1,
             _ => self.failures = 0,
         }
         self.last = Some((spent, tick));
@@ -160,13 +160,17 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         };
         let last = self.settings.last()?;
         let error = match &last.outcome {
-            Outcome::Refused(_) => return Some("it cannot run this scene".to_owned()),
-            Outcome::Stopped(_) => return Some("the budget is used up".to_owned()),
-            Outcome::Failed(_) if self.failures >= MOST_FAILURES => return Some("all its runs go wrong".to_owned()),
-            Outcome::Failed(_) => f64::INFINITY,
-            Outcome::Unknown if self.settings.len() >= SEEN => return Some("there is no reference run".to_owned()),
-            Outcome::Unknown => f64::INFINITY,
-            Outcome::Measured(deviation) => deviation.error,
+            SettingOutcome::Refused(_) => return Some("it cannot run this scene".to_owned()),
+            SettingOutcome::Stopped(_) => return Some("the budget is used up".to_owned()),
+            SettingOutcome::Failed(_) if self.failures >= MOST_FAILURES => {
+                return Some("all its runs go wrong".to_owned());
+            }
+            SettingOutcome::Failed(_) => f64::INFINITY,
+            SettingOutcome::Unknown if self.settings.len() >= SEEN => {
+                return Some("there is no reference run".to_owned());
+            }
+            SettingOutcome::Unknown => f64::INFINITY,
+            SettingOutcome::Measured(deviation) => deviation.error,
         };
         if let Some(why) = subject.is_floor(error, last.tick) {
             return Some(why);

@@ -1,6 +1,6 @@
 //! Settings as a work-precision diagram: error to the right, cost upwards, both logarithmic, a curve for each course.
 
-use super::{Cost, Course, Outcome, Setting, Settings};
+use super::{Cost, MethodChoice, Setting, SettingOutcome, Settings};
 use jostle_engine::record::plot::{Axis, Content, Curve, Plot, Sample};
 use jostle_film::raster::{Diagram, Look, Sign, Spot};
 
@@ -47,7 +47,7 @@ pub fn diagram(settings: &Settings, legend: DiagramLegend, peers: &[Peer]) -> Di
         // Failed settings have no point on the curve.
         let samples = points.into_iter().filter(|(.., sign)| *sign != Sign::Cross);
         let samples = samples.enumerate().map(|(index, (x, y, _))| Sample { time: index as f64, x, y }).collect();
-        let refused = own().any(|setting| matches!(setting.outcome, Outcome::Refused(_)));
+        let refused = own().any(|setting| matches!(setting.outcome, SettingOutcome::Refused(_)));
         let name = course.name();
         let label = if refused { format!("{name} (refused)") } else { name };
         curves.push(Curve { label, body: None, samples });
@@ -93,9 +93,9 @@ pub fn diagram(settings: &Settings, legend: DiagramLegend, peers: &[Peer]) -> Di
 }
 
 /// A method has one colour; its courses differ in their dashes.
-fn looks(courses: &[Course]) -> Vec<Look> {
+fn looks(courses: &[MethodChoice]) -> Vec<Look> {
     let mut methods: Vec<(&str, usize)> = Vec::new();
-    let mut look = |course: &Course| {
+    let mut look = |course: &MethodChoice| {
         let color = methods.iter().position(|(method, _)| *method == course.method).unwrap_or(methods.len());
         if color == methods.len() {
             methods.push((course.method, 0));
@@ -112,13 +112,13 @@ fn looks(courses: &[Course]) -> Vec<Look> {
 fn point(settings: &Settings, setting: &Setting, failed: f64, useless: f64) -> Option<(f64, f64, Sign)> {
     let cost = setting.cost(settings.cost).filter(|cost| *cost > 0.0)?;
     match setting.outcome {
-        Outcome::Measured(_) => {
+        SettingOutcome::Measured(_) => {
             let error = settings.claimed(setting)?;
             let sign = if settings.is_best(setting) { Sign::Best } else { Sign::Dot };
             Some(if error < useless { (error, cost, sign) } else { (failed, cost, Sign::Cross) })
         }
-        Outcome::Failed(_) => Some((failed, cost, Sign::Cross)),
-        Outcome::Unknown | Outcome::Refused(_) | Outcome::Stopped(_) => None,
+        SettingOutcome::Failed(_) => Some((failed, cost, Sign::Cross)),
+        SettingOutcome::Unknown | SettingOutcome::Refused(_) | SettingOutcome::Stopped(_) => None,
     }
 }
 

@@ -5,32 +5,32 @@
 //! `climb.rs` climbs it and decides the end. `timing.rs` times the settings in separate runs. `advice.rs` finds the
 //! settings that no other dominates, and the cheapest for a wanted error. `diagram.rs` draws it.
 
-mod advice;
+mod choice;
 mod climb;
 mod diagram;
 mod timing;
 
 use std::time::{Duration, Instant};
 
-pub(super) use advice::USELESS;
-pub use advice::{Advice, TARGETS};
+pub(super) use choice::USELESS;
+pub use choice::{Advice, TARGETS};
 pub(super) use climb::{Rules, Rungs, Subject, climb};
 pub use diagram::{DiagramLegend, Peer, diagram};
 pub(super) use timing::least;
 
-use jostle_engine::integrate::clock::EventTiming;
+use jostle_engine::integrate::clock_section::EventTiming;
 use jostle_engine::tick::Failure;
 
 /// A method, and its treatment of events.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Course {
+pub struct MethodChoice {
     /// Name of the method; `Auto`: the engine chooses.
     pub method: &'static str,
     /// The moments at which forces jump.
     pub events: EventTiming,
 }
 
-impl Course {
+impl MethodChoice {
     /// A method with events as the scene has them.
     pub fn of(method: &'static str) -> Self {
         Self { method, events: EventTiming::Auto }
@@ -58,7 +58,7 @@ pub enum Cost {
 
 /// How a setting came out.
 #[derive(Clone, Debug)]
-pub enum Outcome {
+pub enum SettingOutcome {
     /// Its error.
     Measured(Deviation),
     /// It reaches its end, and its error is unknown.
@@ -85,13 +85,13 @@ pub struct Deviation {
 #[derive(Clone, Debug)]
 pub struct Setting {
     /// The method.
-    pub course: Course,
+    pub course: MethodChoice,
     /// Seconds of a tick.
     pub tick: f64,
     /// Whether events are located inside ticks.
     pub located: bool,
     /// The result.
-    pub outcome: Outcome,
+    pub outcome: SettingOutcome,
     /// Evaluations of all forces per second of physics.
     pub evaluations: f64,
     /// Seconds per second of physics.
@@ -102,14 +102,14 @@ pub struct Setting {
 
 impl Setting {
     /// One of which nothing is known yet.
-    pub fn new(course: Course, tick: f64) -> Self {
-        let (outcome, notes) = (Outcome::Unknown, Vec::new());
+    pub fn new(course: MethodChoice, tick: f64) -> Self {
+        let (outcome, notes) = (SettingOutcome::Unknown, Vec::new());
         Self { course, tick, located: false, outcome, evaluations: 0.0, seconds: None, notes }
     }
 
     /// Its error, if it is known.
     pub fn error(&self) -> Option<f64> {
-        if let Outcome::Measured(deviation) = self.outcome { Some(deviation.error) } else { None }
+        if let SettingOutcome::Measured(deviation) = self.outcome { Some(deviation.error) } else { None }
     }
 
     /// Its cost per second of physics.
@@ -127,7 +127,7 @@ pub struct Settings {
     /// The settings.
     pub all: Vec<Setting>,
     /// The reasons for which courses did not go on to finer ticks.
-    pub ends: Vec<(Course, String)>,
+    pub ends: Vec<(MethodChoice, String)>,
     /// The kind of cost.
     pub cost: Cost,
     /// No error below it is claimed; nothing: nothing is known of errors.
@@ -136,8 +136,8 @@ pub struct Settings {
 
 impl Settings {
     /// All courses, in order.
-    pub fn courses(&self) -> Vec<Course> {
-        let mut courses: Vec<Course> = Vec::new();
+    pub fn courses(&self) -> Vec<MethodChoice> {
+        let mut courses: Vec<MethodChoice> = Vec::new();
         for setting in &self.all {
             if !courses.contains(&setting.course) {
                 courses.push(setting.course);
@@ -147,7 +147,7 @@ impl Settings {
     }
 
     /// The settings of a course.
-    pub fn of(&self, course: Course) -> impl Iterator<Item = &Setting> {
+    pub fn of(&self, course: MethodChoice) -> impl Iterator<Item = &Setting> {
         self.all.iter().filter(move |setting| setting.course == course)
     }
 

@@ -6,8 +6,8 @@ use std::path::{Path, PathBuf};
 
 use bevy_app::App;
 use jostle::plugins;
+use jostle::scene::SceneRegistry;
 use jostle::scene::schema::{Language, anchor, as_json};
-use jostle::scene::{Outline, SceneAppExt, SceneRegistry, Section};
 use serde_json::{Value, json};
 use validate::{complaints, misshapen};
 
@@ -183,25 +183,4 @@ fn one_entry_is_told_in_plain_words() {
     assert_eq!(language.told("forces", None).unwrap(), "Forces on bodies beside gravity and contacts.");
     assert_eq!(language.told("forces", Some("Magnet")), None);
     assert_eq!(language.told("clock", Some("Drag")), None);
-}
-
-#[derive(serde::Deserialize)]
-struct Plain(#[expect(dead_code, reason = "described, never made")] u8);
-
-impl Section for Plain {
-    const NAME: &'static str = "plain";
-    const EXAMPLE: &'static str = "plain: 3";
-
-    fn install(self, _: &Outline, _: &mut App) {}
-}
-
-#[test]
-fn a_section_that_tells_nothing_takes_everything() {
-    let mut app = App::empty();
-    app.register_section::<Plain>();
-    let language = Language::of(app.world().resource::<SceneRegistry>());
-    assert!(language.manual().contains("## `plain`\n\n```ron\nplain: 3\n```\n\nIt has no described fields."));
-    let mut schema = language.json();
-    schema["required"] = json!([]);
-    assert_eq!(told_of("Scene(plain: (a: 1))", &schema), Vec::<String>::new());
 }

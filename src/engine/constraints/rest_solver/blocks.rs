@@ -3,9 +3,9 @@
 use glam::DVec2;
 use jostle_simd::{BLOCK, Quad, QuadPairs};
 
+use super::contact_direction::{Mover, Row, Sides};
 use super::level_schedule::LevelSchedule;
 use super::rest_contact::{CoulombSpring, RestContact};
-use super::row::{Mover, Row, Sides};
 
 /// Greatest factor of over-relaxation where a normal force gives a tangential velocity, and the other way round. Coulomb's law
 /// makes the equations unsymmetric there. With greater factors the sweeps may oscillate.

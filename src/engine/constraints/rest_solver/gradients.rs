@@ -6,9 +6,9 @@ use jostle_simd::BLOCK;
 
 use super::ROUNDING;
 use super::blocks::{Blocks, Rows};
+use super::contact_direction::{Mover, Row, Sides};
 use super::joint_row::JointRow;
 use super::rest_contact::RestContact;
-use super::row::{Mover, Row, Sides};
 
 /// Conjugate gradients reduce the velocities of an island to this share in one tick. A few ticks reach rounding.
 const GAIN: f64 = 1e-4;

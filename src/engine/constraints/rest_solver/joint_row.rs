@@ -3,7 +3,7 @@
 use glam::DVec2;
 
 use super::ROUNDING;
-use super::row::Mover;
+use super::contact_direction::Mover;
 
 /// One side of a row of a joint.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]

@@ -10,13 +10,13 @@
 //! whatever the ratio of masses, and reach rounding after a few ticks. Rows of joints take part with forces that have no bounds.
 
 mod blocks;
-mod frame;
+mod contact_direction;
 mod gradients;
 mod joint_row;
 mod level_schedule;
+mod moving_frame;
 mod outcome;
 mod rest_contact;
-mod row;
 mod sweep;
 
 use std::f64::consts::PI;
@@ -28,10 +28,10 @@ use gradients::Gradients;
 use outcome::Found;
 use sweep::Sweep;
 
-pub use frame::Frame;
+pub use contact_direction::Mover;
 pub use joint_row::{JointRow, JointRowSide};
-pub use rest_contact::{CoulombSpring, Friction, Outcome, RestContact};
-pub use row::Mover;
+pub use moving_frame::MovingFrame;
+pub use rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact};
 
 /// Sweeps of over-relaxation per tick. The next tick goes on from the forces where this one ended.
 const SWEEPS: usize = 10;
@@ -134,7 +134,7 @@ impl Island {
     }
 
     /// The outcome of each contact for the `dt` seconds to come, in their order.
-    pub fn outcomes(&self, dt: f64) -> impl Iterator<Item = Outcome> + '_ {
+    pub fn outcomes(&self, dt: f64) -> impl Iterator<Item = ContactOutcome> + '_ {
         let Self { blocks, contacts, begin, movers, .. } = self;
         let indices = contacts.iter().zip(&blocks.indices);
         indices.map(move |(contact, &index)| Found { blocks, contact, index, movers: [begin, movers], dt }.outcome())

@@ -4,8 +4,8 @@ use jostle_simd::BLOCK;
 
 use super::ROUNDING;
 use super::blocks::{Blocks, Rows, Springs};
-use super::rest_contact::{CoulombSpring, Friction, Outcome, RestContact};
-use super::row::{Mover, Row, Sides};
+use super::contact_direction::{Mover, Row, Sides};
+use super::rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact};
 
 /// A contact with the forces found for it.
 pub(super) struct Found<'a> {
@@ -21,21 +21,21 @@ pub(super) struct Found<'a> {
 impl Found<'_> {
     /// The outcome for the tick to come.
     #[inline]
-    pub fn outcome(&self) -> Outcome {
+    pub fn outcome(&self) -> ContactOutcome {
         let (block, lane) = (self.index / BLOCK, self.index % BLOCK);
         let (normals, tangential, contact) =
             (&self.blocks.normals[block], &self.blocks.tangential[block], self.contact);
         let normal = normals.force[lane];
         let at_limit = (normals.at_limit >> lane) & 1 != 0;
         if !at_limit && tangential.is_free(lane) && !contact.rolling.acts() {
-            let tangential = Friction::Holds(tangential.force[lane]);
-            return Outcome::Rests { normal, tangential, rolling: Friction::Follows, entirely: true };
+            let tangential = FrictionOutcome::Holds(tangential.force[lane]);
+            return ContactOutcome::Rests { normal, tangential, rolling: FrictionOutcome::Follows, entirely: true };
         }
         self.looked_at(at_limit)
     }
 
     /// The same for a contact with a force at its limit, or with rolling resistance.
-    fn looked_at(&self, at_limit: bool) -> Outcome {
+    fn looked_at(&self, at_limit: bool) -> ContactOutcome {
         let (block, lane) = (self.index / BLOCK, self.index % BLOCK);
         let (normals, tangential, contact) =
             (&self.blocks.normals[block], &self.blocks.tangential[block], self.contact);
@@ -43,14 +43,14 @@ impl Found<'_> {
         let (rows, sides) = (Rows::of(contact, &end), [begin, end]);
         let normal = normals.force[lane];
         if at_limit && !self.stands(&rows.normal, &sides[1]) {
-            return Outcome::Moves { approaches: normal > contact.band.0 };
+            return ContactOutcome::Moves { approaches: normal > contact.band.0 };
         }
         let none = Springs::default();
         let rolling = self.blocks.rolling.get(block).unwrap_or(&none);
         let (tangential, slips) =
             self.friction(&rows.tangent, &sides, (tangential, lane), &contact.tangential, contact.slides.0);
         let (rolling, rolls) = self.friction(&rows.turn, &sides, (rolling, lane), &contact.rolling, contact.slides.1);
-        Outcome::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
+        ContactOutcome::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
     }
 
     /// Whether a row has no velocity beyond rounding.
@@ -71,25 +71,25 @@ impl Found<'_> {
         (springs, lane): (&Springs, usize),
         drawn: &CoulombSpring,
         slides: bool,
-    ) -> (Friction, bool) {
+    ) -> (FrictionOutcome, bool) {
         let (force, engaged) = (springs.force[lane], springs.is_engaged(lane));
         if engaged && (springs.is_free(lane) || self.stands(row, end)) {
-            return (Friction::Holds(force), false);
+            return (FrictionOutcome::Holds(force), false);
         }
         let (before, velocity) = (row.velocity(begin), row.velocity(end));
         let against = engaged && force * velocity < 0.0;
         let stood = before.abs() <= self.noise() * row.mobility * self.dt;
         let friction = if slides || against && stood {
-            Friction::Slides(-velocity)
+            FrictionOutcome::Slides(-velocity)
         } else if against && velocity.abs() < before.abs() {
             // It brakes without stopping. So friction that could hold a body catches a sudden motion within some ticks.
-            Friction::Holds(force)
+            FrictionOutcome::Holds(force)
         } else if self.contact.engaged {
-            Friction::Stays
+            FrictionOutcome::Stays
         } else if self.contact.parts {
-            Friction::Lands
+            FrictionOutcome::Lands
         } else {
-            Friction::Turns
+            FrictionOutcome::Turns
         };
         (friction, drawn.limit > 0.0)
     }

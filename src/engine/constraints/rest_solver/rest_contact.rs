@@ -52,7 +52,7 @@ pub struct RestContact {
 
 /// Friction in the tick to come, in a contact that rests along its normal. Forces are in N, torques in N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Friction {
+pub enum FrictionOutcome {
     /// It holds with this force, or brakes with its greatest force.
     Holds(f64),
     /// It was at rest and could not bear the load, or slid already without its spring. It slides against the motion with the dynamic
@@ -71,7 +71,7 @@ pub enum Friction {
 
 /// The motion of a contact in the tick to come.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Outcome {
+pub enum ContactOutcome {
     /// It moves along its normal; the normal force wants it to approach or to part.
     Moves {
         /// Whether the normal force is at its upper bound: the contact approaches.
@@ -82,9 +82,9 @@ pub enum Outcome {
         /// Normal force in newtons.
         normal: f64,
         /// Friction along the tangent.
-        tangential: Friction,
+        tangential: FrictionOutcome,
         /// Friction against rolling.
-        rolling: Friction,
+        rolling: FrictionOutcome,
         /// Whether friction holds all that it could hold in this contact.
         entirely: bool,
     },

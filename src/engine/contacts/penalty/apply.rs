@@ -23,7 +23,7 @@ use super::surfaces::follow_surfaces;
 use super::switching::Told;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
-use crate::contacts::geometry::{End, PairGeometry, Shares, SideA, arms};
+use crate::contacts::geometry::{ContactEnd, PairGeometry, Shares, SideA, arms};
 use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface};
 use crate::contacts::{ContactPoint, Other};
 use crate::tick::pairs::NEW;
@@ -153,7 +153,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
 
 /// The approach of side B to side A. `None` is a wall.
 #[inline]
-pub(super) fn approach(bodies: &Bodies, a: Option<&End>, b: &End, normal: DVec2) -> Approach {
+pub(super) fn approach(bodies: &Bodies, a: Option<&ContactEnd>, b: &ContactEnd, normal: DVec2) -> Approach {
     let (velocity, mobility) = a.map_or((DVec2::ZERO, 0.0), |a| (a.velocity(bodies), a.mobility(bodies, normal)));
     Approach { parting: (b.velocity(bodies) - velocity).dot(normal), mobility: mobility + b.mobility(bodies, normal) }
 }
@@ -171,7 +171,7 @@ pub(super) struct Sink<'a> {
 pub(super) fn account(
     bodies: &Bodies,
     (rates, forces): (&mut Rates, Option<&mut ContactForces>),
-    (a, b): (&End, &End),
+    (a, b): (&ContactEnd, &ContactEnd),
     (arm_a, arm_b): (DVec2, DVec2),
     force: DVec2,
 ) {
@@ -180,7 +180,7 @@ pub(super) fn account(
         forces.on_body[b.body] += force;
     }
     // The force of a fixed body comes from outside. A body with prescribed motion also does work.
-    let driven = |end: &End, arm: DVec2, force: DVec2| {
+    let driven = |end: &ContactEnd, arm: DVec2, force: DVec2| {
         if bodies.moves[end.body] { force.dot(bodies.velocity_at(end.body, arm)) } else { 0.0 }
     };
     if !bodies.dynamic[a.body] {
@@ -196,7 +196,14 @@ pub(super) fn account(
 impl Sink<'_> {
     /// `force` acts on side B, the opposite on side A, at the contact point.
     #[inline]
-    pub fn between(&mut self, (a, b): (&End, &End), normal: DVec2, overlap: f64, shares: Shares, force: DVec2) {
+    pub fn between(
+        &mut self,
+        (a, b): (&ContactEnd, &ContactEnd),
+        normal: DVec2,
+        overlap: f64,
+        shares: Shares,
+        force: DVec2,
+    ) {
         let (arm_a, arm_b) = arms((a, b), normal, overlap, shares);
         self.bodies.push(a.body, arm_a, -force);
         self.bodies.push(b.body, arm_b, force);
@@ -206,7 +213,7 @@ impl Sink<'_> {
 
     /// `force` acts on an atom at its contact with the wall, `height` metres from its centre.
     #[inline]
-    pub fn wall_pushes(&mut self, end: &End, wall: u32, normal: DVec2, height: f64, force: DVec2) {
+    pub fn wall_pushes(&mut self, end: &ContactEnd, wall: u32, normal: DVec2, height: f64, force: DVec2) {
         let arm = end.arm - normal * height;
         self.bodies.push(end.body, arm, force);
         self.rates.outside(self.bodies.position[end.body] + arm, force, 0.0);
@@ -352,7 +359,8 @@ impl PenaltyContacts {
     ) -> impl Iterator<Item = (usize, ContactPoint)> {
         self.atoms.touching().map(|index| {
             let (pair, contact) = (pairs.atoms[index], self.atoms.get(index));
-            let (law, ends) = (self.laws.get(contact.law), (&End::of(bodies, pair.a), &End::of(bodies, pair.b)));
+            let (law, ends) =
+                (self.laws.get(contact.law), (&ContactEnd::of(bodies, pair.a), &ContactEnd::of(bodies, pair.b)));
             let normal = pair.normal(bodies);
             let (_, arm) = arms(ends, normal, contact.overlap, law.shares());
             let force = contact.force(law, normal);

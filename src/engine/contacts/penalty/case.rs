@@ -6,11 +6,11 @@ use super::apply::Sink;
 use super::contact::Contact;
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
-use crate::constraints::islands::Link;
-use crate::contacts::geometry::{Pair, SideA};
+use crate::constraints::islands::IslandLink;
+use crate::contacts::geometry::{ContactSides, SideA};
 use crate::world::Bodies;
 
-impl Pair {
+impl ContactSides {
     /// `force` acts on side B, the opposite on side A, where they touch.
     #[inline]
     pub(super) fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {

@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::coulomb::Slider;
 use super::normal::{Approach, Mode, NormalForce, elastic_energy};
 use super::pair_law::PairLaw;
-use crate::constraints::rest_solver::Friction;
+use crate::constraints::rest_solver::FrictionOutcome;
 
 /// History of a candidate pair.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -52,19 +52,19 @@ impl Contact {
         let before = *self;
         self.mode = chosen;
         self.normal_force = N::force(law, chosen.sign(), self.overlap, approach);
-        self.take_on(law, Friction::Follows, losses);
+        self.take_on(law, FrictionOutcome::Follows, losses);
         Some(before)
     }
 
     /// Holds along the normal with `normal` newtons; `tangential`: what friction does.
-    pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: Friction, losses: &mut Losses) {
+    pub fn hold(&mut self, law: &PairLaw, normal: f64, tangential: FrictionOutcome, losses: &mut Losses) {
         self.mode = Mode::Hold;
         self.normal_force = normal;
         self.take_on(law, tangential, losses);
     }
 
     /// Applies the friction that was found for the next tick. A weaker normal force holds less of it.
-    fn take_on(&mut self, law: &PairLaw, friction: Friction, losses: &mut Losses) {
+    fn take_on(&mut self, law: &PairLaw, friction: FrictionOutcome, losses: &mut Losses) {
         let slider = law.tangential();
         if slider.acts() {
             losses.friction += self.tangential.take_on(&slider, friction, self.normal_force);

@@ -7,7 +7,7 @@
 use super::apply::{PenaltyContacts, Sink, approach};
 use super::contact::Contact;
 use super::coulomb::Grip;
-use super::held::{Held, Kind};
+use super::held::{Held, HeldPart};
 use super::normal::{Approach, Change, Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling::RollingContacts;
@@ -62,18 +62,18 @@ pub(super) fn take_rows(
         let law = laws.get(contact.law);
         let roller = rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law));
         let (normal, tangent_force) = match (kind, roller) {
-            (Kind::Rolling, roller) => {
+            (HeldPart::Rolling, roller) => {
                 if let Some((slider, rolling_law)) = roller {
                     slider.held = -force;
                     rolling_stages::push(slider, &rolling_law, geometry, sink);
                 }
                 continue;
             }
-            (Kind::Tangent, _) => {
+            (HeldPart::Tangent, _) => {
                 contact.tangential.held = -force;
                 (None, -force)
             }
-            (Kind::Normal, roller) => {
+            (HeldPart::Normal, roller) => {
                 contact.normal_force = force;
                 if let Some((slider, rolling_law)) = roller
                     && slider.grip == Grip::Slide

@@ -10,7 +10,7 @@
 //! it ([`crate::constraints::rest_solver`]).
 
 use super::switching::Base;
-use crate::constraints::rest_solver::{CoulombSpring, Friction};
+use crate::constraints::rest_solver::{CoulombSpring, FrictionOutcome};
 use serde::{Deserialize, Serialize};
 
 /// A share of a force or of a velocity that counts as rounding.
@@ -179,31 +179,31 @@ impl Slider {
 
     /// Applies the friction that was found for the next tick, under the normal force `normal_force`. Returns the energy
     /// lost in J.
-    pub(super) fn take_on(&mut self, law: &SliderLaw, friction: Friction, normal_force: f64) -> f64 {
+    pub(super) fn take_on(&mut self, law: &SliderLaw, friction: FrictionOutcome, normal_force: f64) -> f64 {
         match friction {
-            Friction::Holds(force) => {
+            FrictionOutcome::Holds(force) => {
                 (self.grip, self.held) = (Grip::Hold, force);
                 0.0
             }
             // Without its spring, which would have to be drawn by energy that nothing gives.
-            Friction::Slides(against) => {
+            FrictionOutcome::Slides(against) => {
                 (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 0.0
             }
             // The normal force of that tick depends on the time of the contact's turn. If the coefficients differ, a
             // spring that stuck by it would bear more than a slipping one.
-            Friction::Turns if law.friction_static > law.friction_dynamic => {
+            FrictionOutcome::Turns if law.friction_static > law.friction_dynamic => {
                 let lost = self.let_go(law) + self.follow(law, None, normal_force);
                 if self.grip == Grip::Slip {
                     (self.grip, self.held) = (Grip::Slide, law.stiffness * self.elongation);
                 }
                 lost
             }
-            Friction::Lands if self.grip == Grip::Slip => {
+            FrictionOutcome::Lands if self.grip == Grip::Slip => {
                 self.grip = Grip::Stick;
                 self.follow(law, None, normal_force)
             }
-            Friction::Stays => {
+            FrictionOutcome::Stays => {
                 let before = self.energy(law);
                 self.let_go(law);
                 if self.grip == Grip::Slip {
@@ -213,7 +213,7 @@ impl Slider {
                 }
                 before - self.energy(law)
             }
-            Friction::Follows | Friction::Lands | Friction::Turns => {
+            FrictionOutcome::Follows | FrictionOutcome::Lands | FrictionOutcome::Turns => {
                 self.let_go(law) + self.follow(law, None, normal_force)
             }
         }

@@ -10,7 +10,7 @@ use super::apply::PenaltyContacts;
 use super::normal::NormalForce;
 use super::pair_law::PairLaw;
 use super::rolling;
-use crate::contacts::geometry::{End, PairGeometry, arms};
+use crate::contacts::geometry::{ContactEnd, PairGeometry, arms};
 use crate::contacts::{AtomPair, CandidatePairs};
 use crate::tick::critical_step::{Spring, Springs};
 use crate::tick::steady::SteadySprings;
@@ -152,7 +152,7 @@ impl PenaltyContacts {
         let atoms = self.atoms.touching().map(move |index| {
             let AtomPair { a, b } = pairs.atoms[index];
             let normal = pairs.atoms[index].normal(bodies);
-            let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+            let (a, b) = (ContactEnd::of(bodies, a), ContactEnd::of(bodies, b));
             let contact = self.atoms.get(index);
             let law = self.laws.get(contact.law);
             let (arm_a, arm_b) = arms((&a, &b), normal, contact.overlap, law.shares());

@@ -4,15 +4,15 @@ use glam::DVec2;
 
 use super::contact::Contact;
 use super::pair_law::PairLaw;
-use crate::constraints::islands::Link;
-use crate::constraints::{LostTo, Row, Rows, Share, Side};
+use crate::constraints::islands::IslandLink;
+use crate::constraints::{LostTo, Row, RowSide, Rows, Share};
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
 /// The part of a contact that a row holds.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-pub(super) enum Kind {
+pub(super) enum HeldPart {
     Normal,
     Tangent,
     Rolling,
@@ -23,7 +23,7 @@ pub(super) enum Kind {
 pub(super) struct Held {
     /// The index of the first row.
     first: usize,
-    contacts: Vec<(PairGeometry, Kind)>,
+    contacts: Vec<(PairGeometry, HeldPart)>,
 }
 
 impl std::fmt::Debug for Held {
@@ -48,7 +48,7 @@ impl Held {
     }
 
     /// The contact of each row, the held part, and the force in newtons or torque in N m. Both act on side B of the contact.
-    pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a PairGeometry, Kind, f64)> + 'a {
+    pub fn answers<'a>(&'a self, rows: &'a Rows) -> impl Iterator<Item = (&'a PairGeometry, HeldPart, f64)> + 'a {
         let indices = self.first..;
         self.contacts.iter().zip(indices).map(|((geometry, kind), index)| (geometry, *kind, rows.force(index)))
     }
@@ -81,7 +81,7 @@ impl Held {
             side.iter_mut().for_each(|side| side.torque += sign * twist);
         }
         rows.add(row);
-        self.contacts.push((*geometry, Kind::Normal));
+        self.contacts.push((*geometry, HeldPart::Normal));
     }
 
     /// Holds the tangent of a contact.
@@ -98,17 +98,17 @@ impl Held {
         let share = Share { natural: -law.tangential_stiffness * contact.tangential.elongation, measure };
         let inertial = geometry.inertial(law.shares(), bodies).1;
         rows.add(row(geometry, law, (tangent, tangent), inertial, share, LostTo::Friction, bodies));
-        self.contacts.push((*geometry, Kind::Tangent));
+        self.contacts.push((*geometry, HeldPart::Tangent));
     }
 
     /// Holds the turn of a contact.
     pub fn add_rolling(&mut self, rows: &mut Rows, geometry: &PairGeometry, share: Share, bodies: &Bodies) {
-        let side = |body: usize, sign: f64| Side { body, lever: sign, torque: sign, ..Side::default() };
+        let side = |body: usize, sign: f64| RowSide { body, lever: sign, torque: sign, ..RowSide::default() };
         let sides = [geometry.pair.other_body().map(|body| side(body, -1.0)), Some(side(geometry.pair.b.body, 1.0))];
-        let turning = |side: &Side| side.lever * bodies.prescribed.acceleration(side.body).1;
+        let turning = |side: &RowSide| side.lever * bodies.prescribed.acceleration(side.body).1;
         let inertial = sides.iter().flatten().map(turning).fold(0.0, |sum, term| sum + term);
         rows.add(Row { sides, inertial, share, ..Row::default() });
-        self.contacts.push((*geometry, Kind::Rolling));
+        self.contacts.push((*geometry, HeldPart::Rolling));
     }
 }
 
@@ -122,7 +122,7 @@ fn row(
     bodies: &Bodies,
 ) -> Row {
     let (arm_a, arm_b) = geometry.contact_arms(law.shares());
-    let side = |body: usize, arm: DVec2, sign: f64| Side {
+    let side = |body: usize, arm: DVec2, sign: f64| RowSide {
         body,
         direction: sign * direction,
         lever: sign * arm.perp_dot(direction),

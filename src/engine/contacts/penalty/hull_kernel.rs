@@ -16,7 +16,7 @@ use super::kernel::EvaluationTime;
 use super::normal::{Approach, NormalForce};
 use super::pair_law::LawTable;
 use super::remembered::{Sides, TRUSTED};
-use crate::contacts::geometry::{End, PairGeometry, SideA, arms};
+use crate::contacts::geometry::{ContactEnd, PairGeometry, SideA, arms};
 use crate::contacts::{DeepestOverlap, SurfacePair};
 use crate::world::Bodies;
 use jostle_simd::{BLOCK, Kernel, Lanes};
@@ -126,7 +126,7 @@ impl Waiting {
     }
 
     fn account(&self, (lane, force): (usize, DVec2), laws: &LawTable, sink: &mut Sink) {
-        let end = |side: usize| End {
+        let end = |side: usize| ContactEnd {
             body: self.sides[lane].bodies[side] as usize,
             arm: DVec2::new(self.arm[side][0][lane], self.arm[side][1][lane]),
             radius: self.radius[side][lane],

@@ -116,7 +116,7 @@ fn tell_friction(
     say: &mut impl FnMut(What, Indicator),
 ) {
     let slider = &contact.tangential;
-    let motion = Motion {
+    let motion = SliderMotion {
         velocity: geometry.sliding(law.shares()),
         rate: geometry.sliding_rate(law.shares(), bodies),
         speed: geometry.speed(law.shares()),
@@ -127,8 +127,8 @@ fn tell_friction(
     tell_slider((slider, &law.tangential()), (contact.mode, held), pressure, motion, |event, indicator| {
         say(
             match event {
-                Ends::Gives(positive) => What::Give(positive),
-                Ends::Stops => What::Stop,
+                PhaseEnd::Gives(positive) => What::Give(positive),
+                PhaseEnd::Stops => What::Stop,
             },
             indicator,
         );
@@ -138,7 +138,7 @@ fn tell_friction(
 /// The relative motion of the ends of a spring with a Coulomb limit. It has a velocity, its rate, the speeds whose
 /// difference it is, and the rate per unit of force.
 #[derive(Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct SliderMotion {
     pub velocity: f64,
     pub rate: f64,
     pub speed: f64,
@@ -147,7 +147,7 @@ pub(super) struct Motion {
 
 /// How a spring with a Coulomb limit ends its phase.
 #[derive(Clone, Copy)]
-pub(super) enum Ends {
+pub(super) enum PhaseEnd {
     /// It gives way with a force of this sign.
     Gives(bool),
     Stops,
@@ -162,8 +162,8 @@ pub(super) fn tell_slider(
     (slider, law): (&Slider, &SliderLaw),
     (mode, held): (Mode, bool),
     pressure: Pressure,
-    motion: Motion,
-    mut say: impl FnMut(Ends, Indicator),
+    motion: SliderMotion,
+    mut say: impl FnMut(PhaseEnd, Indicator),
 ) {
     let (sign, rounding) = (slider.held.signum(), ROUNDING * motion.speed);
     // The amplitude of the second rate in a swing with this angular frequency.
@@ -179,13 +179,13 @@ pub(super) fn tell_slider(
             let (rate, second) = if held { (0.0, 0.0) } else { (pressure.rate, pressure.second_rate) };
             let (slip, slope) = (motion.velocity - follows * rate, motion.rate - follows * second);
             let (value, bend) = (sign * slip, bend(slope, squared * slip));
-            say(Ends::Stops, Indicator { value, slope: sign * slope, bend, rounding, ..Indicator::default() });
+            say(PhaseEnd::Stops, Indicator { value, slope: sign * slope, bend, rounding, ..Indicator::default() });
         }
         grip => {
             // At rest along the normal friction too may be any force within its cone once the sides stop.
             if grip == Grip::Stick && mode == Mode::Hold {
                 let value = sign * motion.velocity;
-                say(Ends::Stops, Indicator { value, slope: UNKNOWN, rounding, ..Indicator::default() });
+                say(PhaseEnd::Stops, Indicator { value, slope: UNKNOWN, rounding, ..Indicator::default() });
             }
             let (known, swings) = if grip == Grip::Hold { (UNKNOWN, 0.0) } else { (law.stiffness, squared.sqrt()) };
             let force = [slider.force(law), known * motion.velocity, known * motion.rate];
@@ -193,7 +193,7 @@ pub(super) fn tell_slider(
             for (positive, sign) in [(true, -1.0), (false, 1.0)] {
                 let [value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
                 let bend = bend(slope, second_rate);
-                say(Ends::Gives(positive), Indicator { value, slope, bend, swings, ..Indicator::default() });
+                say(PhaseEnd::Gives(positive), Indicator { value, slope, bend, swings, ..Indicator::default() });
             }
         }
     }

@@ -1,8 +1,8 @@
 //! Joints of bodies with contacts, for the search for rest.
 
-use crate::constraints::islands::{Link, Members};
+use crate::constraints::islands::{IslandLink, Members};
 use crate::constraints::rest_solver::{JointRow, JointRowSide, Mover};
-use crate::constraints::{Kind, Row, Rows};
+use crate::constraints::{Row, RowKind, Rows};
 use crate::world::Bodies;
 use glam::DVec2;
 
@@ -15,7 +15,7 @@ pub(super) struct Joined {
     other: Option<usize>,
 }
 
-impl Link for Joined {
+impl IslandLink for Joined {
     fn other_body(&self) -> Option<usize> {
         self.other
     }
@@ -31,7 +31,7 @@ pub(super) fn find_joined(rows: &Rows, bodies: &Bodies, joined: &mut Vec<Joined>
     if !rows.has_joints() {
         return;
     }
-    let holds = |index: usize, row: &Row| row.kind != Kind::Acceleration && !rows.gives_its_bound(index);
+    let holds = |index: usize, row: &Row| row.kind != RowKind::Acceleration && !rows.gives_its_bound(index);
     for (index, row) in rows.all().iter().enumerate().filter(|(index, row)| holds(*index, row)) {
         let [a, b] = row.sides.map(|side| side.map(|side| side.body));
         let moves = [a, b].into_iter().flatten().any(|body| bodies.dynamic[body]);

@@ -15,7 +15,7 @@ use super::dashpot::Damping;
 use super::follow::{Followed, Touch};
 use super::normal::{Approach, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
-use crate::contacts::geometry::{End, arms};
+use crate::contacts::geometry::{ContactEnd, arms};
 use crate::contacts::{AtomPair, ContactForces, DeepestOverlap};
 use crate::tick::Rates;
 use crate::world::Bodies;
@@ -442,7 +442,7 @@ impl<N: NormalForce> Pairs<'_, N> {
         normal.1.store(&mut y);
         for lane in 0..V::COUNT {
             let along = DVec2::new(x[lane], y[lane]);
-            let of = |atom: u32| End::of(bodies, atom).mobility(bodies, along);
+            let of = |atom: u32| ContactEnd::of(bodies, atom).mobility(bodies, along);
             let (a, b) = pairs.get(first + lane);
             mobility[lane] = of(a) + of(b);
         }
@@ -461,7 +461,7 @@ fn note_deepest(
 ) {
     for lane in lanes(deeper) {
         let (a, b) = sides.get(lane);
-        let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+        let (a, b) = (ContactEnd::of(bodies, a), ContactEnd::of(bodies, b));
         let entity = &bodies.entity;
         deepest.note(overlaps[lane], a.radius.min(b.radius), time, || (entity[a.body], entity[b.body]));
     }
@@ -513,7 +513,7 @@ fn push_and_account(
         share.give(found, body_b as u32, force, pushes.torque_second[lane] + arm_b.perp_dot(force));
         if forces.is_some() || !(bodies.dynamic[body_a] && bodies.dynamic[body_b]) {
             let normal = DVec2::new(geometry.normal[0][lane], geometry.normal[1][lane]);
-            let ends = (&End::of(bodies, a as u32), &End::of(bodies, b as u32));
+            let ends = (&ContactEnd::of(bodies, a as u32), &ContactEnd::of(bodies, b as u32));
             let arms = arms(ends, normal, overlaps[lane], laws.get(law[lane]).shares());
             account(bodies, (&mut found.rates, forces.as_deref_mut()), ends, arms, force);
         }

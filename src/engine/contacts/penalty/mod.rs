@@ -20,11 +20,11 @@ mod joined;
 mod kernel;
 mod limits;
 mod meetings;
-mod model;
 mod modes;
 pub mod normal;
 mod one_by_one;
 pub mod pair_law;
+mod penalty_model;
 mod records;
 mod remembered;
 mod rest;
@@ -37,20 +37,20 @@ mod switching;
 mod watched;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 pub use apply::PenaltyContacts;
 pub use dashpot::Dashpot;
 pub use inelasticity::Inelasticity;
 pub use inelasticity::{inelasticity_of, restitution_of};
-use model::Contacts;
-pub use model::PenaltyState;
+use penalty_model::Contacts;
+pub use penalty_model::PenaltyState;
 pub use rolling::RollingContacts;
 
 use super::search;
 use crate::scene::units::{Damping, Rate};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::TickAppExt;
 use crate::world::Materials;
 
@@ -174,10 +174,6 @@ impl Entry for Penalty {
     const NAME: &'static str = "Penalty";
     const EXAMPLE: &'static str = "Penalty(normal: Inelasticity, tangential: Spring(ratio: 0.8), rolling: None)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         if let TangentialLaw::Spring { ratio } = self.tangential {
             report.positive("tangential.ratio", ratio);
@@ -199,7 +195,7 @@ impl Entry for Penalty {
         }
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             install(entry.value, app);
         }

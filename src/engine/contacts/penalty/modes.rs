@@ -13,9 +13,11 @@ use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use super::search_schedule::{Found, MANY};
 use crate::constraints::Rows;
-use crate::constraints::islands::{Islands, Link, Marked, Members};
-use crate::constraints::rest_solver::{CoulombSpring, Frame, Friction, Island, Mover, Outcome, RestContact};
-use crate::contacts::geometry::{End, Listed, Pair, PairGeometry, SideA};
+use crate::constraints::islands::{IslandLink, Islands, Marked, Members};
+use crate::constraints::rest_solver::{
+    ContactOutcome, CoulombSpring, FrictionOutcome, Island, Mover, MovingFrame, RestContact,
+};
+use crate::contacts::geometry::{ContactEnd, ContactSides, Listed, PairGeometry, SideA};
 use crate::contacts::{AtomPair, CandidatePairs, SurfacePair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
@@ -25,7 +27,7 @@ use crate::world::Bodies;
 #[derive(Default)]
 pub(super) struct Scratch {
     touching: Vec<u32>,
-    cases: Vec<Pair>,
+    cases: Vec<ContactSides>,
     joined: Vec<Joined>,
     /// Bodies with a contact that does not stop.
     moved: Marked,
@@ -68,10 +70,10 @@ pub(super) fn choose<N: NormalForce>(
     touching.extend(choice.contacts.atoms.awake_touching().map(|index| index as u32));
     for &index in &*touching {
         let pair = pairs.atoms[index as usize];
-        let (a, b) = (End::of(choice.sink.bodies, pair.a), End::of(choice.sink.bodies, pair.b));
+        let (a, b) = (ContactEnd::of(choice.sink.bodies, pair.a), ContactEnd::of(choice.sink.bodies, pair.b));
         if !(choice.stands(a.body) && choice.stands(b.body)) {
             let normal = pair.normal(choice.sink.bodies);
-            choice.first_look::<N>(Pair { index, normal, a: SideA::Atom(a), b }, cases, moved);
+            choice.first_look::<N>(ContactSides { index, normal, a: SideA::Atom(a), b }, cases, moved);
         }
     }
     touching.clear();
@@ -167,14 +169,14 @@ impl Choice<'_> {
 
     /// A contact as it is, and its law.
     #[inline]
-    fn known(&self, case: &Pair) -> (Contact, &PairLaw) {
+    fn known(&self, case: &ContactSides) -> (Contact, &PairLaw) {
         let PenaltyContacts { laws, atoms, surfaces, .. } = &*self.contacts;
         let list = if case.listed() == Listed::Atoms { atoms } else { surfaces };
         let contact = list.get(case.index as usize);
         (contact, laws.get(contact.law))
     }
 
-    fn contact(&mut self, case: &Pair) -> (Edited<'_>, &PairLaw) {
+    fn contact(&mut self, case: &ContactSides) -> (Edited<'_>, &PairLaw) {
         let PenaltyContacts { laws, atoms, surfaces, .. } = &mut *self.contacts;
         let list = if case.listed() == Listed::Atoms { atoms } else { surfaces };
         let contact = list.edit(case.index as usize);
@@ -183,7 +185,7 @@ impl Choice<'_> {
     }
 
     /// The rolling spring of a contact, and whether the contact slides without it, in scenes that have rolling friction.
-    fn rolls(&self, case: &Pair, pair: &PairLaw) -> Option<(CoulombSpring, bool)> {
+    fn rolls(&self, case: &ContactSides, pair: &PairLaw) -> Option<(CoulombSpring, bool)> {
         let rolling = self.rolling.as_deref()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
         let list = if case.listed() == Listed::Atoms { &rolling.atoms } else { &rolling.surfaces };
@@ -192,7 +194,7 @@ impl Choice<'_> {
     }
 
     /// The rolling spring of a contact with its law, in scenes that have rolling friction.
-    fn roller(&mut self, case: &Pair, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
+    fn roller(&mut self, case: &ContactSides, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref_mut()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
         let list = if case.listed() == Listed::Atoms { &mut rolling.atoms } else { &mut rolling.surfaces };
@@ -200,7 +202,7 @@ impl Choice<'_> {
     }
 
     /// A contact that cannot stop within the tick chooses by its velocity; the others are noted.
-    fn first_look<N: NormalForce>(&mut self, case: Pair, cases: &mut Vec<Pair>, moved: &mut Marked) {
+    fn first_look<N: NormalForce>(&mut self, case: ContactSides, cases: &mut Vec<ContactSides>, moved: &mut Marked) {
         let (seen, law) = self.known(&case);
         if seen.mode == Mode::Hold && N::dissipates(law) {
             cases.push(case);
@@ -221,8 +223,10 @@ impl Choice<'_> {
         self.choose_by_velocity::<N>(&case, approach);
     }
 
-    fn choose_by_velocity<N: NormalForce>(&mut self, case: &Pair, approach: Approach) {
-        self.change(case, Friction::Follows, |contact, law, losses| contact.choose_mode::<N>(law, approach, losses));
+    fn choose_by_velocity<N: NormalForce>(&mut self, case: &ContactSides, approach: Approach) {
+        self.change(case, FrictionOutcome::Follows, |contact, law, losses| {
+            contact.choose_mode::<N>(law, approach, losses)
+        });
     }
 
     /// The number of touching contacts of bodies that are not at rest. If some bodies rest, the count ends at [`MANY`].
@@ -243,12 +247,12 @@ impl Choice<'_> {
         held.extend(self.contacts.atoms.awake_held().map(|index| index as u32));
         for &index in &*held {
             let pair = pairs.atoms[index as usize];
-            let (a, b) = (End::of(self.sink.bodies, pair.a), End::of(self.sink.bodies, pair.b));
+            let (a, b) = (ContactEnd::of(self.sink.bodies, pair.a), ContactEnd::of(self.sink.bodies, pair.b));
             if !(self.stands(a.body) && self.stands(b.body)) {
                 self.sink.bodies.catch_up();
                 let normal = pair.normal(self.sink.bodies);
                 let approach = approach(self.sink.bodies, Some(&a), &b, normal);
-                self.choose_by_velocity::<N>(&Pair { index, normal, a: SideA::Atom(a), b }, approach);
+                self.choose_by_velocity::<N>(&ContactSides { index, normal, a: SideA::Atom(a), b }, approach);
             }
         }
         held.clear();
@@ -271,8 +275,8 @@ impl Choice<'_> {
     /// Changes a contact and corrects the sums of forces by the difference. `rolling`: what its rolling spring does.
     fn change(
         &mut self,
-        case: &Pair,
-        rolling: Friction,
+        case: &ContactSides,
+        rolling: FrictionOutcome,
         change: impl FnOnce(&mut Contact, &PairLaw, &mut Losses) -> Option<Contact>,
     ) {
         let mut losses = self.losses;
@@ -301,7 +305,7 @@ impl Choice<'_> {
 
     /// A contact as the search for rest sees it.
     #[inline]
-    fn seen<N: NormalForce>(&self, case: &Pair, ends: (usize, usize)) -> RestContact {
+    fn seen<N: NormalForce>(&self, case: &ContactSides, ends: (usize, usize)) -> RestContact {
         let (contact, law) = self.known(case);
         let (rolling, rolls) = self.rolls(case, law).unwrap_or_default();
         let place = self.sink.bodies.position[case.b.body] + case.b.arm;
@@ -324,7 +328,7 @@ impl Choice<'_> {
     /// `may_rest`: all of its contacts could stop within the tick.
     fn stop<N: NormalForce>(
         &mut self,
-        (cases, joined, members): (&[Pair], &[Joined], &Members),
+        (cases, joined, members): (&[ContactSides], &[Joined], &Members),
         island: &mut Island,
         may_rest: bool,
         ledger: &mut Ledger,
@@ -376,17 +380,17 @@ impl Choice<'_> {
         let mut entirely = may_rest;
         for (case, outcome) in cases.iter().zip(island.outcomes(self.dt)) {
             match outcome {
-                Outcome::Moves { approaches } => {
+                ContactOutcome::Moves { approaches } => {
                     entirely = false;
                     let mut approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
                     if !N::DEPENDS_ON_VELOCITY {
                         approach.parting = if approaches { -1.0 } else { 1.0 };
                     }
-                    self.change(case, Friction::Follows, |contact, law, losses| {
+                    self.change(case, FrictionOutcome::Follows, |contact, law, losses| {
                         contact.choose_mode::<N>(law, approach, losses)
                     });
                 }
-                Outcome::Rests { normal, tangential, rolling, entirely: stops } => {
+                ContactOutcome::Rests { normal, tangential, rolling, entirely: stops } => {
                     entirely &= stops;
                     self.change(case, rolling, |contact, law, losses| {
                         let before = *contact;
@@ -420,7 +424,7 @@ impl Choice<'_> {
 
     /// The frame of the carrier of an island: its first member that moves as prescribed, or its first belt. `movers` are those of
     /// its members and belts.
-    fn frame(&self, island: &[Pair], members: &[usize], movers: &[Mover]) -> Option<Frame> {
+    fn frame(&self, island: &[ContactSides], members: &[usize], movers: &[Mover]) -> Option<MovingFrame> {
         let bodies = &*self.sink.bodies;
         let carries = |mover: &Mover| mover.inverse_mass == 0.0 && (mover.velocity != DVec2::ZERO || mover.spin != 0.0);
         let index = movers.iter().position(carries)?;
@@ -428,7 +432,7 @@ impl Choice<'_> {
         let turns = island.iter().all(|case| case.other_body().is_some());
         let Mover { velocity, spin, .. } = movers[index];
         let origin = members.get(index).map_or(DVec2::ZERO, |&body| bodies.position[body]);
-        Some(Frame { origin, velocity, spin: if turns { spin } else { 0.0 } })
+        Some(MovingFrame { origin, velocity, spin: if turns { spin } else { 0.0 } })
     }
 
     fn lay_to_rest(&mut self, members: &[usize], loads: &[f64], ledger: &mut Ledger) {

@@ -8,7 +8,7 @@ use std::ops::Range;
 use super::contact_list::ContactList;
 use super::kernel::FEWEST;
 use crate::contacts::AtomPair;
-use crate::contacts::geometry::End;
+use crate::contacts::geometry::ContactEnd;
 use crate::world::Bodies;
 use crate::world::chunk::parts_of;
 use crate::world::packed::Moved;
@@ -166,7 +166,7 @@ pub(super) fn record(bodies: &Bodies, atom: usize) -> Record {
         let (moved, turn) = bodies.displacement(atom);
         return Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, radius]);
     }
-    let end = End::of(bodies, atom as u32);
+    let end = ContactEnd::of(bodies, atom as u32);
     let (place, (moved, turn), velocity) = (bodies.atom_place(atom), end.displacement(bodies), end.velocity(bodies));
     Record([place.x, place.y, moved.x, moved.y, velocity.x, velocity.y, turn, end.radius])
 }

@@ -13,7 +13,7 @@ use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
 use super::normal::Mode;
 use super::pair_law::PairLaw;
-use crate::contacts::geometry::{End, PairGeometry};
+use crate::contacts::geometry::{ContactEnd, PairGeometry};
 use crate::contacts::{AtomPair, CandidatePairs};
 use crate::tick::Rates;
 use crate::tick::pairs::NEW;
@@ -43,7 +43,7 @@ impl RollingContacts {
 
     /// The law of a pair: torques in N m over angles in radians.
     #[inline]
-    pub(super) fn law(&self, pair: &PairLaw, a: Option<&End>, b: &End) -> SliderLaw {
+    pub(super) fn law(&self, pair: &PairLaw, a: Option<&ContactEnd>, b: &ContactEnd) -> SliderLaw {
         let radius = rolling_radius(a, b);
         let coefficient = self.friction * radius;
         SliderLaw {
@@ -68,7 +68,7 @@ impl RollingContacts {
         for (&AtomPair { a, b }, (slider, contact)) in
             pairs.atoms.iter().zip(self.atoms.iter().zip(contacts.atoms.iter()))
         {
-            let (a, b) = (End::of(bodies, a), End::of(bodies, b));
+            let (a, b) = (ContactEnd::of(bodies, a), ContactEnd::of(bodies, b));
             energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
         }
         for (index, (&pair, (slider, contact))) in
@@ -83,7 +83,7 @@ impl RollingContacts {
 
 /// In metres; `None` is a wall.
 #[inline]
-pub(super) fn rolling_radius(a: Option<&End>, b: &End) -> f64 {
+pub(super) fn rolling_radius(a: Option<&ContactEnd>, b: &ContactEnd) -> f64 {
     a.map_or(b.radius, |a| 1.0 / (1.0 / a.radius + 1.0 / b.radius))
 }
 
@@ -95,7 +95,7 @@ pub(super) fn stiffness(ratio: f64, normal: f64, radius: f64) -> f64 {
 
 /// Applies `torque` to side A of a contact, and its opposite to the other side. Without a body A, only the other side turns. A
 /// side that does not move by forces takes the torque from outside, and does work as it turns.
-pub(super) fn twist(bodies: &mut Bodies, rates: &mut Rates, a: Option<&End>, b: &End, torque: f64) {
+pub(super) fn twist(bodies: &mut Bodies, rates: &mut Rates, a: Option<&ContactEnd>, b: &ContactEnd, torque: f64) {
     bodies.torque[b.body] -= torque;
     match a {
         Some(a) => {
@@ -120,13 +120,20 @@ struct Follow<'a> {
 }
 
 impl Follow<'_> {
-    fn pair(&mut self, slider: &mut Slider, law: &SliderLaw, contact: &Contact, a: Option<&End>, b: &End) {
+    fn pair(
+        &mut self,
+        slider: &mut Slider,
+        law: &SliderLaw,
+        contact: &Contact,
+        a: Option<&ContactEnd>,
+        b: &ContactEnd,
+    ) {
         if contact.mode == Mode::Open {
             self.losses.friction += slider.energy(law);
             *slider = Slider::default();
             return;
         }
-        let turn_of = |end: &End| self.bodies.displacement(end.body).1;
+        let turn_of = |end: &ContactEnd| self.bodies.displacement(end.body).1;
         let turn = turn_of(b) - a.map_or(0.0, turn_of);
         let turn = (self.elapsed > 0.0).then_some(turn);
         self.losses.friction += slider.follow(law, turn, contact.normal_force);
@@ -159,7 +166,7 @@ pub(super) fn apply(
         }
         if contact.mode != Mode::Open || *slider != Slider::default() {
             let AtomPair { a, b } = pairs.atoms[index];
-            let (a, b) = (End::of(follow.bodies, a), End::of(follow.bodies, b));
+            let (a, b) = (ContactEnd::of(follow.bodies, a), ContactEnd::of(follow.bodies, b));
             let law = rolling.law(contacts.laws.get(contact.law), Some(&a), &b);
             follow.pair(slider, &law, &contact, Some(&a), &b);
         }

@@ -5,7 +5,7 @@ use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
 use super::coulomb::{Grip, Slider, SliderLaw};
 use super::held::Held;
-use super::indicators::{Ends, Motion, Pressure, tell_slider};
+use super::indicators::{PhaseEnd, Pressure, SliderMotion, tell_slider};
 use super::normal::Mode;
 use super::pair_law::PairLaw;
 use super::rolling::{RollingContacts, twist};
@@ -128,7 +128,7 @@ pub(super) fn tell(
     bodies: &Bodies,
     mut say: impl FnMut(What, Indicator),
 ) {
-    let motion = Motion {
+    let motion = SliderMotion {
         velocity: geometry.turning(),
         rate: geometry.turning_rate(bodies),
         speed: geometry.turning_speed(),
@@ -138,8 +138,8 @@ pub(super) fn tell(
     tell_slider((slider, law), modes, pressure, motion, |event, indicator| {
         say(
             match event {
-                Ends::Gives(positive) => What::RollingGive(positive),
-                Ends::Stops => What::RollingStop,
+                PhaseEnd::Gives(positive) => What::RollingGive(positive),
+                PhaseEnd::Stops => What::RollingStop,
             },
             indicator,
         );

@@ -11,7 +11,7 @@ use super::hull_kernel::Waiting;
 use super::kernel::EvaluationTime;
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::LawTable;
-use crate::contacts::geometry::{End, PairGeometry};
+use crate::contacts::geometry::{ContactEnd, PairGeometry};
 use crate::contacts::{DeepestOverlap, Probe, Surface, SurfacePair};
 use crate::world::{Bodies, NearestPoint};
 use jostle_simd::BLOCK;
@@ -203,7 +203,7 @@ fn follow_wall<N: NormalForce>(
     deepest: &mut DeepestOverlap,
     EvaluationTime { time, elapsed, .. }: EvaluationTime,
 ) {
-    let (end, place_of_atom) = End::at_wall(sink.bodies, wall, atom);
+    let (end, place_of_atom) = ContactEnd::at_wall(sink.bodies, wall, atom);
     let NearestPoint { height, normal, distance } = sink.bodies.nearest_on_wall(wall, atom as usize, place_of_atom);
     let wall = sink.bodies.whole_wall(wall);
     let mut contact = list.get(index);

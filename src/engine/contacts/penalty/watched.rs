@@ -2,8 +2,8 @@
 //! indicators.
 
 use super::handover;
-use super::model::{Contacts, PenaltyState, is_overloaded};
 use super::normal::NormalForce;
+use super::penalty_model::{Contacts, PenaltyState, is_overloaded};
 use super::switching::{self, View};
 use super::{Penalty, RollingLaw, TangentialLaw, features, rolling_stages};
 use crate::tick::{EvaluationMode, Events, Indicator, Objection, State};

@@ -18,8 +18,8 @@ use jostle_shapes::{Feature, Hull, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
-use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{Dependence, Energies, Model, State, SteadySpring, Wrong};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::{Dependence, Energies, FailureKind, Model, State, SteadySpring};
 use crate::world::{Bodies, PackedHull};
 
 /// A probe that passes through a hull reaches this share of half its width.
@@ -76,7 +76,7 @@ impl Model for Crossings {
         Memory::of(self)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         *self = recall(bytes)?;
         Ok(())
     }
@@ -141,7 +141,7 @@ impl Crossings {
         let margin = state.bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.margin);
         if let Some((body, hull)) = self.passed_unlisted(bodies, margin) {
             let other = bodies.entity[bodies.hulls[hull].body as usize];
-            state.end_run(body, Wrong::Crossed(other));
+            state.end_run(body, FailureKind::Crossed(other));
         }
         let bodies = &state.bodies;
         self.follow(bodies);
@@ -240,7 +240,7 @@ impl Crossings {
     }
 
     /// The first body with an atom that has crossed a wall since, and how.
-    fn first(&self, bodies: &Bodies) -> Option<(usize, Wrong)> {
+    fn first(&self, bodies: &Bodies) -> Option<(usize, FailureKind)> {
         // Without walls with ends no places were noted.
         if self.before.is_empty() {
             return None;
@@ -256,14 +256,17 @@ impl Crossings {
                 wall.is_crossed(*round.unwrap_or(&before), bodies.meeting_wall(wall, atom).0)
             };
             if let Some(wall) = bodies.single_walls().find(is_crossed) {
-                return Some((body, Wrong::Crossed(bodies.walls[wall].entity)));
+                return Some((body, FailureKind::Crossed(bodies.walls[wall].entity)));
             }
             let crossed = crossed_line(bodies, atom, before, now);
             // A centre is pressed behind a line and comes back: then they were known to be near.
             let is_known = |from_behind: &(usize, bool)| from_behind.1 && self.knows(bodies, atom, from_behind.0);
             if let Some((wall, from_behind)) = crossed.filter(|crossed| !is_known(crossed)) {
                 let entity = bodies.walls[wall].entity;
-                return Some((body, if from_behind { Wrong::Behind(entity) } else { Wrong::Crossed(entity) }));
+                return Some((
+                    body,
+                    if from_behind { FailureKind::Behind(entity) } else { FailureKind::Crossed(entity) },
+                ));
             }
         }
         None
@@ -306,11 +309,11 @@ impl Watched {
     }
 
     /// The failure that happened to it since.
-    fn wrong(&self, bodies: &Bodies) -> Option<fn(Entity) -> Wrong> {
+    fn wrong(&self, bodies: &Bodies) -> Option<fn(Entity) -> FailureKind> {
         if is_deep(self.pair, bodies) || has_crossed(self.pair, self.place, bodies) {
-            return Some(Wrong::Crossed);
+            return Some(FailureKind::Crossed);
         }
-        self.touched.is_some_and(|(before, _)| has_jumped(self.pair, before, bodies)).then_some(Wrong::Sunk)
+        self.touched.is_some_and(|(before, _)| has_jumped(self.pair, before, bodies)).then_some(FailureKind::Sunk)
     }
 }
 

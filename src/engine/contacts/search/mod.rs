@@ -28,8 +28,8 @@ use self::identity::Identities;
 use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
 use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, SurfacePair};
-use crate::tick::snapshot::{Memory, Unfit, recall};
-use crate::tick::{AfterLoad, Dependence, Energies, Model, State, SteadySpring, TickAppExt, Wrong};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::{AfterLoad, Dependence, Energies, FailureKind, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -75,7 +75,7 @@ impl Model for PairSearch {
         Memory::of(self)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         *self = recall(bytes)?;
         Ok(())
     }
@@ -97,7 +97,7 @@ impl Model for PairSearch {
             && let Some(body) = self.update(pairs, bodies, bounds)
         {
             let most = most_pairs(bodies);
-            state.end_run(body, Wrong::Pairs(most));
+            state.end_run(body, FailureKind::Pairs(most));
         }
     }
 

@@ -44,14 +44,14 @@ impl OneStep for Divided {
 #[cfg(test)]
 mod tests {
     use super::super::problems::KEPLER;
-    use super::super::trials::Run;
+    use super::super::trials::TrialRun;
     use super::super::{RungeKutta4, trials};
     use super::*;
 
     /// Promise: a step in two parts equals two steps of half the length, up to the rounding of one sum.
     #[test]
     fn parts_are_steps() {
-        let (mut whole, mut parts) = (Run::of(KEPLER), Run::of(KEPLER));
+        let (mut whole, mut parts) = (TrialRun::of(KEPLER), TrialRun::of(KEPLER));
         whole.step(&mut Divided::new(Box::new(RungeKutta4::default()), 3), 0.3);
         for _ in 0..3 {
             parts.step(&mut RungeKutta4::default(), 0.3 / 3.0);

@@ -22,7 +22,7 @@ impl OneStep for ExplicitEuler {
 #[cfg(test)]
 mod tests {
     use super::super::problems::OSCILLATOR;
-    use super::super::trials::{Run, demand_order};
+    use super::super::trials::{TrialRun, demand_order};
     use super::*;
 
     /// Law: order 1 on smooth motion (section I.7 of the source). Tolerance: a quarter of an order.
@@ -34,7 +34,7 @@ mod tests {
     /// Law: the energy of an undamped oscillation grows by `1 + (omega h)^2` in each step. Tolerance: rounding of the steps.
     #[test]
     fn energy_grows_as_stated() {
-        let mut run = Run::of(OSCILLATOR);
+        let mut run = TrialRun::of(OSCILLATOR);
         for _ in 0..100 {
             run.step(&mut ExplicitEuler, 0.1);
         }

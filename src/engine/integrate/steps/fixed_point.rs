@@ -63,12 +63,12 @@ impl FixedPoint {
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{Counted, Motion, OSCILLATOR};
+    use super::super::problems::{Counted, OSCILLATOR, ProblemMotion};
     use super::*;
     use crate::tick::Flow;
 
     /// Ten numbers that are damped, by up to half of themselves over half the step, and turned into each other.
-    const DAMPED: Motion = Motion {
+    const DAMPED: ProblemMotion = ProblemMotion {
         name: "damped",
         coordinates: 5,
         dimension: 10,

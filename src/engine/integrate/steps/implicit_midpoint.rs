@@ -147,8 +147,8 @@ fn disturbance(middle: &[f64], coordinate: usize, coordinates: usize, length: f6
 
 #[cfg(test)]
 mod tests {
-    use super::super::problems::{ELONGATION, KEPLER, Motion, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
+    use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR, ProblemMotion};
+    use super::super::trials::{TrialRun, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.
@@ -182,7 +182,7 @@ mod tests {
     fn quadratic_energy_is_kept_by_stiff_springs() {
         for (motion, slowest) in [(OSCILLATOR, 1.0), (ELONGATION, 1.0), (CHAIN, 0.517)] {
             for product in [0.3, 1000.0] {
-                let mut run = Run::of(motion);
+                let mut run = TrialRun::of(motion);
                 let beginning = (motion.energy)(&run.state);
                 let mut off = 0.0_f64;
                 let mut method = ImplicitMidpoint::default();
@@ -196,7 +196,7 @@ mod tests {
     }
 
     /// Five masses of 1 kg between two walls, springs of 1 N/m. The slowest frequency is `2 sin(pi/12)`, 0.518 per second.
-    const CHAIN: Motion = Motion {
+    const CHAIN: ProblemMotion = ProblemMotion {
         name: "chain",
         coordinates: 5,
         dimension: 10,

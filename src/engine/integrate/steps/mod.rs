@@ -22,7 +22,7 @@ mod symplectic4;
 mod trials;
 mod velocity_verlet;
 
-use crate::tick::snapshot::{Memory, Unfit};
+use crate::tick::snapshot::{Memory, UnfitSnapshot};
 
 pub use crate::tick::Flow;
 
@@ -31,9 +31,9 @@ pub use dop853::Dop853;
 pub use explicit_euler::ExplicitEuler;
 pub use implicit_midpoint::ImplicitMidpoint;
 pub use runge_kutta4::RungeKutta4;
-pub use semi_implicit_euler::SemiImplicitEuler;
+pub use semi_implicit_euler::SemiImplicitEulerStep;
 pub use symplectic4::Symplectic4;
-pub use velocity_verlet::VelocityVerlet;
+pub use velocity_verlet::VelocityVerletStep;
 
 /// The beginning of a step.
 #[derive(Clone, Copy, Debug)]
@@ -84,7 +84,7 @@ pub trait OneStep: Send + Sync {
     ///
     /// # Errors
     /// If the bytes are not its own.
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let _ = bytes;
         Ok(())
     }

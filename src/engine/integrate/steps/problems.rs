@@ -6,7 +6,7 @@ use crate::tick::Flow;
 
 /// A motion whose state is known at all times.
 #[derive(Clone, Copy)]
-pub(super) struct Motion {
+pub(super) struct ProblemMotion {
     pub(super) name: &'static str,
     pub(super) coordinates: usize,
     pub(super) dimension: usize,
@@ -22,7 +22,7 @@ pub(super) struct Motion {
 }
 
 /// `q'' = -q`.
-pub(super) const OSCILLATOR: Motion = Motion {
+pub(super) const OSCILLATOR: ProblemMotion = ProblemMotion {
     name: "oscillator",
     coordinates: 1,
     dimension: 2,
@@ -45,7 +45,7 @@ const ECCENTRICITY: f64 = 0.6;
 
 /// A planet on an ellipse about a fixed sun from its nearest point, `G M = 1`, `a = 1` (Kepler's equation by Newton).
 /// It ends well behind the second passage, because over whole orbits the leading errors of both sides cancel.
-pub(super) const KEPLER: Motion = Motion {
+pub(super) const KEPLER: ProblemMotion = ProblemMotion {
     name: "kepler",
     coordinates: 2,
     dimension: 4,
@@ -77,7 +77,7 @@ pub(super) const KEPLER: Motion = Motion {
 };
 
 /// A fall with quadratic drag, `q'' = 1 - v |v|`, from a tenth of the terminal velocity: `v = tanh(t + c)`.
-pub(super) const DRAG: Motion = Motion {
+pub(super) const DRAG: ProblemMotion = ProblemMotion {
     name: "quadratic drag",
     coordinates: 1,
     dimension: 2,
@@ -96,7 +96,7 @@ pub(super) const DRAG: Motion = Motion {
 };
 
 /// A driven oscillator, `q'' = -4 q + cos(3 t)`: the difference of its free motion and the forced one, `-cos(3 t)/5`.
-pub(super) const DRIVEN: Motion = Motion {
+pub(super) const DRIVEN: ProblemMotion = ProblemMotion {
     name: "driven oscillator",
     coordinates: 1,
     dimension: 2,
@@ -116,7 +116,7 @@ pub(super) const DRIVEN: Motion = Motion {
 
 /// A spring that hardens with a state of a model, `z' = 2 q v`, so `z = q^2`. Then `q'' = q - z q` is Duffing's
 /// equation. Its motion from one side of the saddle to the other is `q = sqrt(2) sech(t - 1)`.
-pub(super) const HARDENING: Motion = Motion {
+pub(super) const HARDENING: ProblemMotion = ProblemMotion {
     name: "hardening spring",
     coordinates: 1,
     dimension: 3,
@@ -137,7 +137,7 @@ pub(super) const HARDENING: Motion = Motion {
 
 /// A combination of damping, a force in time, and a state that lags, `z' = v - z`, and pulls. The equation is
 /// `q'' = -q - v/2 - z + f(t)` with `f` such that `q = sin t`. So `z = (cos t + sin t)/2 - e^-t/2`.
-pub(super) const LAGGING: Motion = Motion {
+pub(super) const LAGGING: ProblemMotion = ProblemMotion {
     name: "damped and lagging",
     coordinates: 1,
     dimension: 3,
@@ -158,7 +158,7 @@ pub(super) const LAGGING: Motion = Motion {
 };
 
 /// An oscillator whose spring is a state of a model, as a tangential spring of a contact: `q'' = -z`, `z' = v`.
-pub(super) const ELONGATION: Motion = Motion {
+pub(super) const ELONGATION: ProblemMotion = ProblemMotion {
     name: "spring with a state",
     coordinates: 1,
     dimension: 3,
@@ -178,11 +178,11 @@ pub(super) const ELONGATION: Motion = Motion {
 };
 
 /// Those that show orders.
-pub(super) const MOTIONS: [Motion; 6] = [OSCILLATOR, KEPLER, DRAG, DRIVEN, HARDENING, LAGGING];
+pub(super) const MOTIONS: [ProblemMotion; 6] = [OSCILLATOR, KEPLER, DRAG, DRIVEN, HARDENING, LAGGING];
 
 /// A motion that counts how often its rates are asked for.
 pub(super) struct Counted {
-    pub(super) motion: Motion,
+    pub(super) motion: ProblemMotion,
     pub(super) evaluations: usize,
 }
 

@@ -40,7 +40,7 @@ impl OneStep for RungeKutta4 {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_order};
+    use super::super::trials::{TrialRun, demand_order};
     use super::*;
 
     /// Law: order 4 on smooth motion (section II.1 of the source). Tolerance: a quarter of an order.
@@ -54,7 +54,7 @@ mod tests {
     #[test]
     fn loses_energy_as_stated() {
         for length in [0.3, 1.0, 2.82, 2.84] {
-            let mut run = Run::of(OSCILLATOR);
+            let mut run = TrialRun::of(OSCILLATOR);
             for _ in 0..100 {
                 run.step(&mut RungeKutta4::default(), length);
             }
@@ -67,7 +67,7 @@ mod tests {
 
     #[test]
     fn three_evaluations_beside_the_first() {
-        let mut run = Run::of(KEPLER);
+        let mut run = TrialRun::of(KEPLER);
         run.step(&mut RungeKutta4::default(), 0.1);
         assert_eq!(run.flow.evaluations, 3);
     }

@@ -15,12 +15,12 @@ use crate::tick::Flow;
 
 /// Semi-implicit Euler.
 #[derive(Default)]
-pub struct SemiImplicitEuler {
+pub struct SemiImplicitEulerStep {
     state: Vec<f64>,
     rates: Vec<f64>,
 }
 
-impl OneStep for SemiImplicitEuler {
+impl OneStep for SemiImplicitEulerStep {
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
         let velocities = flow.velocities();
         let coordinates = velocities.start;
@@ -59,20 +59,20 @@ impl OneStep for SemiImplicitEuler {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_order};
+    use super::super::trials::{TrialRun, demand_bounded_energy, demand_order};
     use super::*;
 
     /// Law: order 1 on smooth motion (section I.1.2 of the source). Tolerance: a quarter of an order.
     #[test]
     fn the_order_is_1() {
-        demand_order(&mut SemiImplicitEuler::default(), 1, 40.0, 1.37);
+        demand_order(&mut SemiImplicitEulerStep::default(), 1, 40.0, 1.37);
     }
 
     /// Law: a symplectic method keeps the energy near its value for exponentially long (section IX.8 of the source).
     #[test]
     fn energy_stays() {
         for (motion, steps) in [(OSCILLATOR, 20.3), (ELONGATION, 20.3), (KEPLER, 400.3)] {
-            demand_bounded_energy(&mut SemiImplicitEuler::default(), motion, steps);
+            demand_bounded_energy(&mut SemiImplicitEulerStep::default(), motion, steps);
         }
     }
 
@@ -83,10 +83,10 @@ mod tests {
     fn stable_below_2() {
         for motion in [OSCILLATOR, ELONGATION] {
             for (length, stable) in [(1.9, true), (2.1, false)] {
-                let mut run = Run::of(motion);
+                let mut run = TrialRun::of(motion);
                 let mut most = 0.0_f64;
                 for _ in 0..1000 {
-                    run.step(&mut SemiImplicitEuler::default(), length);
+                    run.step(&mut SemiImplicitEulerStep::default(), length);
                     most = most.max(2.0 * (motion.energy)(&run.state));
                 }
                 let bound: f64 = 1.0 / (1.0 - length / 2.0);
@@ -98,8 +98,8 @@ mod tests {
     #[test]
     fn evaluates_only_for_states_of_models() {
         for (motion, evaluations) in [(OSCILLATOR, 0), (ELONGATION, 1)] {
-            let mut run = Run::of(motion);
-            run.step(&mut SemiImplicitEuler::default(), 0.1);
+            let mut run = TrialRun::of(motion);
+            run.step(&mut SemiImplicitEulerStep::default(), 0.1);
             assert_eq!(run.flow.evaluations, evaluations, "{}", motion.name);
         }
     }

@@ -59,7 +59,7 @@ fn half(number: usize) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
+    use super::super::trials::{TrialRun, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: conditions of order 4 of a palindrome of kicks and drifts (Hairer, Lubich, Wanner, III.3). Let `a` be the
@@ -113,7 +113,7 @@ mod tests {
     #[test]
     fn stable_below_3_13() {
         for (length, stable) in [(3.125, true), (3.145, false)] {
-            let mut run = Run::of(OSCILLATOR);
+            let mut run = TrialRun::of(OSCILLATOR);
             let mut most = 0.0_f64;
             for _ in 0..10_000 {
                 run.step(&mut Symplectic4::default(), length);
@@ -125,7 +125,7 @@ mod tests {
 
     #[test]
     fn six_evaluations() {
-        let mut run = Run::of(KEPLER);
+        let mut run = TrialRun::of(KEPLER);
         run.step(&mut Symplectic4::default(), 0.1);
         assert_eq!(run.flow.evaluations, 6);
     }

@@ -2,12 +2,12 @@
 
 use std::f64::consts::TAU;
 
-use super::problems::{Counted, KEPLER, MOTIONS, Motion};
+use super::problems::{Counted, KEPLER, MOTIONS, ProblemMotion};
 use super::{OneStep, Start};
 
 /// A run with equal steps. Changes are added with compensation (Kahan 1965), so that rounding does not grow with their
 /// number.
-pub(super) struct Run {
+pub(super) struct TrialRun {
     pub(super) flow: Counted,
     pub(super) time: f64,
     pub(super) state: Vec<f64>,
@@ -17,19 +17,19 @@ pub(super) struct Run {
     change: Vec<f64>,
 }
 
-impl Run {
+impl TrialRun {
     /// At the beginning of a motion.
-    pub(super) fn of(motion: Motion) -> Self {
+    pub(super) fn of(motion: ProblemMotion) -> Self {
         Self::at(motion, 0.0)
     }
 
     /// At some time of a motion.
-    pub(super) fn at(motion: Motion, time: f64) -> Self {
+    pub(super) fn at(motion: ProblemMotion, time: f64) -> Self {
         Self::from(motion, time, (motion.exact)(time))
     }
 
     /// From another time and state.
-    pub(super) fn from(motion: Motion, time: f64, state: Vec<f64>) -> Self {
+    pub(super) fn from(motion: ProblemMotion, time: f64, state: Vec<f64>) -> Self {
         let zero = vec![0.0; state.len()];
         let flow = Counted { motion, evaluations: 0 };
         Self { flow, time, state, lost: zero.clone(), lost_time: 0.0, rates: zero.clone(), change: zero }
@@ -80,12 +80,12 @@ pub(super) fn slope(points: &[(f64, f64)]) -> f64 {
 /// Measured order of a method on a motion, from six step lengths. It is the slope of the error's logarithm over that of
 /// the length. The error is the root mean square over all steps. The first run takes `fineness` times the steps of a
 /// method of order 4. The `ratio` is the factor of steps from then on.
-fn measured_order(method: &mut dyn OneStep, motion: Motion, fineness: f64, ratio: f64) -> f64 {
+fn measured_order(method: &mut dyn OneStep, motion: ProblemMotion, fineness: f64, ratio: f64) -> f64 {
     let points: Vec<_> = (0..6)
         .map(|number| {
             let steps = (motion.steps * fineness * libm::pow(ratio, f64::from(number))).round();
             let length = motion.duration / steps;
-            let mut run = Run::of(motion);
+            let mut run = TrialRun::of(motion);
             let mut squares = 0.0;
             for _ in 0..steps as usize {
                 run.step(method, length);
@@ -109,9 +109,9 @@ pub(super) fn demand_order(method: &mut dyn OneStep, order: u32, fineness: f64, 
 /// Demands that energy swings equally far in the first and last hundred of 10 000 periods of 2 pi. The tolerance is a
 /// tenth, because the phases at which a hundred periods are sampled differ by less. Even a drift that is invisible in
 /// the first hundred would make the last swing a hundred times as far.
-pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, steps_per_period: f64) {
+pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: ProblemMotion, steps_per_period: f64) {
     let length = TAU / steps_per_period;
-    let mut run = Run::of(motion);
+    let mut run = TrialRun::of(motion);
     let beginning = (motion.energy)(&run.state);
     let hundred = (100.0 * steps_per_period) as usize;
     let (mut first, mut last) = (0.0_f64, 0.0_f64);
@@ -132,7 +132,7 @@ pub(super) fn demand_bounded_energy(method: &mut dyn OneStep, motion: Motion, st
 /// its statistical error. A gain below a thousandth of the swing in an orbit is accepted too.
 pub(super) fn demand_no_trend(method: &mut dyn OneStep, steps_per_orbit: u32) {
     let length = TAU / f64::from(steps_per_orbit);
-    let mut run = Run::from(KEPLER, 0.0, vec![0.1, 0.0, 0.0, 19.0_f64.sqrt()]);
+    let mut run = TrialRun::from(KEPLER, 0.0, vec![0.1, 0.0, 0.0, 19.0_f64.sqrt()]);
     let (mut lowest, mut highest, mut means) = (f64::INFINITY, f64::NEG_INFINITY, Vec::new());
     for block in 0..100 {
         let mut sum = 0.0;
@@ -163,12 +163,13 @@ pub(super) fn demand_reversible(method: &mut dyn OneStep, fineness: f64) {
     for motion in MOTIONS {
         let steps = (motion.steps * fineness).round();
         let length = motion.duration / steps;
-        let mut run = Run::of(motion);
+        let mut run = TrialRun::of(motion);
         for _ in 0..steps as usize {
             run.step(method, length);
         }
         let displacement = 1e-6;
-        let mut displaced = Run::from(motion, run.time, run.state.iter().map(|number| number + displacement).collect());
+        let mut displaced =
+            TrialRun::from(motion, run.time, run.state.iter().map(|number| number + displacement).collect());
         for _ in 0..steps as usize {
             run.step(method, -length);
             displaced.step(method, -length);

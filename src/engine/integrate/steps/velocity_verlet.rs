@@ -15,11 +15,11 @@ use crate::tick::Flow;
 
 /// Velocity Verlet.
 #[derive(Default)]
-pub struct VelocityVerlet {
+pub struct VelocityVerletStep {
     work: Splitting,
 }
 
-impl OneStep for VelocityVerlet {
+impl OneStep for VelocityVerletStep {
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
         let mut making = self.work.begin(flow, start, change);
         making.kick(length / 2.0);
@@ -33,34 +33,34 @@ impl OneStep for VelocityVerlet {
 #[cfg(test)]
 mod tests {
     use super::super::problems::{ELONGATION, KEPLER, OSCILLATOR};
-    use super::super::trials::{Run, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
+    use super::super::trials::{TrialRun, demand_bounded_energy, demand_no_trend, demand_order, demand_reversible};
     use super::*;
 
     /// Law: order 2 on smooth motion, with velocities in the accelerations and states of models too. Symmetric methods
     /// have even order (theorem II.3.2 of the source). Tolerance: a quarter of an order.
     #[test]
     fn the_order_is_2() {
-        demand_order(&mut VelocityVerlet::default(), 2, 6.0, 1.37);
+        demand_order(&mut VelocityVerletStep::default(), 2, 6.0, 1.37);
     }
 
     /// Law: a symplectic method keeps the energy near its value for exponentially long (section IX.8 of the source).
     #[test]
     fn energy_stays() {
         for (motion, steps) in [(OSCILLATOR, 20.3), (ELONGATION, 20.3), (KEPLER, 200.3)] {
-            demand_bounded_energy(&mut VelocityVerlet::default(), motion, steps);
+            demand_bounded_energy(&mut VelocityVerletStep::default(), motion, steps);
         }
     }
 
     /// Law: the same on sharp ellipses with steps that resolve the passage. There the rate times the step is a third.
     #[test]
     fn energy_has_no_trend_in_ten_thousand_sharp_orbits() {
-        demand_no_trend(&mut VelocityVerlet::default(), 600);
+        demand_no_trend(&mut VelocityVerletStep::default(), 600);
     }
 
     /// Law: a symmetric method runs back to its start (section V.1 of the source). Tolerance: rounding.
     #[test]
     fn runs_backwards() {
-        demand_reversible(&mut VelocityVerlet::default(), 1.0);
+        demand_reversible(&mut VelocityVerletStep::default(), 1.0);
     }
 
     /// Law: an oscillator keeps `v^2 + (1 - h^2/4) q^2`. So from rest its energy never rises, except for steps above 2.
@@ -69,10 +69,10 @@ mod tests {
     fn stable_below_2() {
         for motion in [OSCILLATOR, ELONGATION] {
             for (length, stable) in [(1.99, true), (2.01, false)] {
-                let mut run = Run::of(motion);
+                let mut run = TrialRun::of(motion);
                 let mut most = 0.0_f64;
                 for _ in 0..1000 {
-                    run.step(&mut VelocityVerlet::default(), length);
+                    run.step(&mut VelocityVerletStep::default(), length);
                     most = most.max(2.0 * (motion.energy)(&run.state));
                 }
                 let rounding = 1000.0 * 8.0 * f64::EPSILON;
@@ -84,8 +84,8 @@ mod tests {
     #[test]
     fn one_evaluation() {
         for (motion, evaluations) in [(KEPLER, 1), (ELONGATION, 3)] {
-            let mut run = Run::of(motion);
-            run.step(&mut VelocityVerlet::default(), 0.1);
+            let mut run = TrialRun::of(motion);
+            run.step(&mut VelocityVerletStep::default(), 0.1);
             assert_eq!(run.flow.evaluations, evaluations, "{}", motion.name);
         }
     }

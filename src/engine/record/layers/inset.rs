@@ -2,20 +2,20 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Corner, Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
-use crate::scene::units::{Length, Position, Scalar};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, Written};
+use crate::scene::units::{Length, LengthPair, Scalar};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A square part of the world, enlarged in a corner of the picture. It may stand more than once.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Inset {
     /// The place in its middle, in m.
-    center: Position,
+    center: LengthPair,
     /// The height and width of the part, in m. Above zero.
     height: Length,
     /// The corner of the picture: `TopLeft`, `TopRight`, `BottomLeft` or `BottomRight`. Default: `BottomRight`.
@@ -45,18 +45,14 @@ impl Entry for Inset {
     const NAME: &'static str = "Inset";
     const EXAMPLE: &'static str = "Inset(center: (0, 0.5), height: 0.2, corner: TopRight, share: 0.4)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.finite_pair("center", self.center.si());
         report.positive("height", self.height);
         report.between("share", self.share, 0.05, 1.0);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
-        for Written { value: Self { center, height, corner, share }, .. } in entries {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
+        for WrittenEntry { value: Self { center, height, corner, share }, .. } in entries {
             let (right, bottom) = match corner {
                 Place::TopLeft => (false, false),
                 Place::TopRight => (true, false),

@@ -3,14 +3,14 @@
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, PictureHeight, add_own_layer};
 use crate::joints::Joint;
-use crate::joints::ends::End;
+use crate::joints::ends::JointEnd;
 use crate::record::sections::look::LAYERS;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 /// Radius of a hinge as a share of the picture's height.
@@ -27,11 +27,7 @@ impl Entry for Joints {
     const NAME: &'static str = "Joints";
     const EXAMPLE: &'static str = "Joints";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, draw);
     }
 }
@@ -68,7 +64,7 @@ fn line(marks: &mut Vec<Mark>, from: DVec2, to: DVec2) {
     marks.push(Mark::plain(MarkShape::Line(from, to)));
 }
 
-fn anchor(marks: &mut Vec<Mark>, end: &End, radius: f64) {
+fn anchor(marks: &mut Vec<Mark>, end: &JointEnd, radius: f64) {
     marks.push(Mark::plain(MarkShape::Circle(end.position, radius)));
     if end.body.is_none() {
         marks.push(Mark::plain(MarkShape::Dot(end.position)));

@@ -26,7 +26,7 @@ pub use jostle_frames::{Corner, Mark, MarkShape};
 
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Arity, Diagnostics, Kind, Outline, SceneAppExt, install_word};
+use crate::scene::{Arity, Diagnostics, NameKind, Outline, SceneAppExt, install_word};
 use crate::tick::State;
 use crate::world::Bodies;
 
@@ -61,7 +61,7 @@ pub trait Layer: Send + Sync + 'static {
     fn draw(&self, world: &World, marks: &mut Vec<Mark>);
 
     /// When the layer looks at the world between frames; `None`: never.
-    fn memory(&self) -> Option<Memory> {
+    fn memory(&self) -> Option<LayerMemory> {
         None
     }
 
@@ -77,7 +77,7 @@ impl<F: Fn(&World, &mut Vec<Mark>) + Send + Sync + 'static> Layer for F {
 
 /// How a layer remembers, in seconds of physics.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Memory {
+pub struct LayerMemory {
     /// From one look to the next.
     pub every: f64,
     /// The time before a frame, beyond which the past does not matter to it.
@@ -101,7 +101,7 @@ impl Layers {
     /// The next tick after `seen` at which some layer reads the world, before a frame at `time` s. Ticks last `dt` s.
     pub(crate) fn next_look(world: &World, seen: Option<u64>, time: f64, dt: f64) -> Option<u64> {
         let layers = world.get_resource::<Self>()?;
-        let next = |memory: Memory| {
+        let next = |memory: LayerMemory| {
             let early = ((time - memory.length) / dt).floor().max(0.0) as u64;
             let from = seen.map_or(early, |seen| early.max(seen + 1));
             from.next_multiple_of(stride(memory, dt))
@@ -122,7 +122,7 @@ impl Layers {
 }
 
 /// From one look to the next, in ticks.
-fn stride(memory: Memory, dt: f64) -> u64 {
+fn stride(memory: LayerMemory, dt: f64) -> u64 {
     ((memory.every / dt).round() as u64).max(1)
 }
 
@@ -206,13 +206,13 @@ impl Shown {
     /// Reports names that fit no body.
     fn check(of: Option<&Names>, outline: &Outline, report: &mut Diagnostics) {
         if let Some(names) = of {
-            names.require(Kind::BODY, outline, "of", report);
+            names.require(NameKind::BODY, outline, "of", report);
         }
     }
 
     /// The keys of a scene's bodies are their places in the outline.
     fn new(of: Option<&Names>, outline: &Outline) -> Self {
-        Self(of.map(|names| names.matching(Kind::BODY, outline).into_iter().map(|index| index as u64).collect()))
+        Self(of.map(|names| names.matching(NameKind::BODY, outline).into_iter().map(|index| index as u64).collect()))
     }
 
     /// Places of the bodies in canonical order.

@@ -1,13 +1,13 @@
 //! The common part of layers of bodies: an entry of `look.layers` with the field `of`.
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::de::DeserializeOwned;
 
 use super::{Layer, Shown, add_own_layer};
 use crate::record::sections::look::LAYERS;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, Written};
+use crate::scene::{Diagnostics, Entry, Outline, WrittenEntry};
 
 /// A layer that shows the bodies of its field `of`, or all that move.
 pub(super) trait OfBodies: DeserializeOwned + JsonSchema + Send + Sync + 'static {
@@ -34,16 +34,12 @@ impl<L: OfBodies> Entry for L {
     const NAME: &'static str = <L as OfBodies>::NAME;
     const EXAMPLE: &'static str = <L as OfBodies>::EXAMPLE;
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         Shown::check(self.of(), outline, report);
         self.check_others(report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         Self::prepare(app);
         for entry in entries {
             let shown = Shown::new(entry.value.of(), outline);

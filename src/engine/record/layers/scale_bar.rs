@@ -2,12 +2,12 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A bar of a round length in the corner of the picture.
 #[derive(Deserialize, JsonSchema)]
@@ -19,11 +19,7 @@ impl Entry for ScaleBar {
     const NAME: &'static str = "ScaleBar";
     const EXAMPLE: &'static str = "ScaleBar";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, |_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::ScaleBar)));
     }
 }

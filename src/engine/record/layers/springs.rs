@@ -5,14 +5,14 @@ use std::f64::consts::TAU;
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, PictureHeight, add_own_layer};
 use crate::forces::spring::SpringForce;
 use crate::forces::torsion_spring::TorsionSpringForce;
 use crate::record::sections::look::LAYERS;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::State;
 
 /// Half the width of a coil as a share of the picture's height.
@@ -38,11 +38,7 @@ impl Entry for Springs {
     const NAME: &'static str = "Springs";
     const EXAMPLE: &'static str = "Springs";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, draw);
     }
 }

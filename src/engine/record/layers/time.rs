@@ -2,12 +2,12 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Mark, MarkShape, add_own_layer};
 use crate::record::sections::look::LAYERS;
-use crate::scene::{Entry, Outline, SceneAppExt, Written};
+use crate::scene::{Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// The time of the physics, below the title.
 #[derive(Deserialize, JsonSchema)]
@@ -19,11 +19,7 @@ impl Entry for Time {
     const NAME: &'static str = "Time";
     const EXAMPLE: &'static str = "Time";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
-    fn install(_: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(_: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         add_own_layer(app, |_: &World, marks: &mut Vec<Mark>| marks.push(Mark::plain(MarkShape::Time)));
     }
 }

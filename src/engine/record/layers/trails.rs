@@ -12,10 +12,10 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::of_bodies::OfBodies;
-use super::{Layer, Mark, MarkShape, Memory, Shown, stride};
+use super::{Layer, LayerMemory, Mark, MarkShape, Shown, stride};
 use crate::scene::units::Time;
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Kind, Outline, SceneAppExt};
+use crate::scene::{Diagnostics, NameKind, Outline, SceneAppExt};
 use crate::tick::State;
 
 /// Points of one trail, at most and at least.
@@ -53,7 +53,7 @@ impl OfBodies for Trails {
     }
 
     fn layer(self, shown: Shown, outline: &Outline) -> impl Layer {
-        let count = shown.0.as_ref().map_or(outline.count(Kind::BODY), Vec::len);
+        let count = shown.0.as_ref().map_or(outline.count(NameKind::BODY), Vec::len);
         let points = (ALL_POINTS / count.max(1)).clamp(POINTS.0, POINTS.1);
         Tracks { shown, seconds: self.seconds.si(), points, looked: None, tracks: BTreeMap::new() }
     }
@@ -83,8 +83,8 @@ impl Layer for Tracks {
         }
     }
 
-    fn memory(&self) -> Option<Memory> {
-        Some(Memory { every: self.seconds / self.points as f64, length: self.seconds })
+    fn memory(&self) -> Option<LayerMemory> {
+        Some(LayerMemory { every: self.seconds / self.points as f64, length: self.seconds })
     }
 
     fn look(&mut self, world: &World) {

@@ -2,11 +2,11 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::units::{Length, Position, Scalar, Time};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, Written};
+use crate::scene::units::{Length, LengthPair, Scalar, Time};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, WrittenEntry};
 
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
@@ -41,16 +41,12 @@ impl Entry for FitCamera {
     const NAME: &'static str = "Fit";
     const EXAMPLE: &'static str = "Fit(margin: 0.05)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Reports a margin that leaves no picture.
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.between("margin", self.margin, 0.0, 0.45);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Fit(entry.value));
         }
@@ -63,7 +59,7 @@ impl Entry for FitCamera {
 #[schemars(rename = "Look")]
 pub struct LookCamera {
     /// The place in the middle of the picture, in m.
-    pub center: Position,
+    pub center: LengthPair,
     /// The height of the picture, in m. Above zero.
     pub height: Length,
 }
@@ -73,17 +69,13 @@ impl Entry for LookCamera {
     const NAME: &'static str = "Look";
     const EXAMPLE: &'static str = "Look(center: (3, 3), height: 6)";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Reports a height that is not above zero.
     fn check(&self, _: &Outline, report: &mut Diagnostics) {
         report.finite_pair("center", self.center.si());
         report.positive("height", self.height);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Look(entry.value));
         }
@@ -109,18 +101,14 @@ impl Entry for FollowCamera {
     const NAME: &'static str = "Follow";
     const EXAMPLE: &'static str = "Follow(of: \"ball\", height: 3, smoothing: \"0.3 s\")";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Reports a body that is not there, and what gives no picture.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        outline.require(Kind::BODY, &self.of, "of", report);
+        outline.require(NameKind::BODY, &self.of, "of", report);
         report.positive("height", self.height);
         report.not_negative("smoothing", self.smoothing);
     }
 
-    fn install(entries: Vec<Written<Self>>, _: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, _: &Outline, app: &mut App) {
         for entry in entries {
             app.insert_resource(CameraChoice::Follow(entry.value));
         }

@@ -2,12 +2,12 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, Kind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -68,10 +68,10 @@ impl FreezeEntry {
                 }
             }
             (None, Some((a, b))) => {
-                let kinds = [Kind::BODY, Kind::WALL];
+                let kinds = [NameKind::BODY, NameKind::WALL];
                 let found_a = outline.require_any(&kinds, a, "touch[0]", report);
                 let found_b = outline.require_any(&kinds, b, "touch[1]", report);
-                let wall = |name| outline.position(Kind::WALL, name).is_some();
+                let wall = |name| outline.position(NameKind::WALL, name).is_some();
                 if found_a && found_b && (a == b || wall(a) && wall(b)) {
                     let message = format!("`{a}` and `{b}` never touch");
                     report.error("touch", message).help("name two bodies, or a body and a wall");
@@ -124,10 +124,6 @@ impl FilmSection {
 impl Section for FilmSection {
     const NAME: &'static str = "film";
     const EXAMPLE: &'static str = "film: (fps: 30, size: (1280, 720), speed: 0.5, freeze: [(at: 1.5, for: 2)])";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports rates, sizes and moments that give no film.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::values::Elsewhere;
@@ -41,10 +41,6 @@ impl Section for LookSection {
     const NAME: &'static str = "look";
     const EXAMPLE: &'static str =
         "look: (theme: \"night\", layers: [Trails(seconds: 1), ContactForces, ScaleBar, Time])";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports an unknown theme, and duplicate layers.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {

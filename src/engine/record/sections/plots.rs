@@ -2,13 +2,13 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use jostle_frames::plot::pairs;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use jostle_frames::plot::phase_portrait;
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::{Names, WholeNumber};
-use crate::scene::{Diagnostics, Kind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section};
 use crate::sensors;
 
 /// The most bins that a reader can distinguish.
@@ -88,7 +88,8 @@ impl HistogramEntry {
     pub fn channels(&self, outline: &Outline) -> Vec<String> {
         match (&self.of, &self.quantity, &self.channel) {
             (Some(of), Some(quantity), _) => {
-                let bodies = of.matching(Kind::BODY, outline).into_iter().map(|body| &outline.names(Kind::BODY)[body]);
+                let bodies =
+                    of.matching(NameKind::BODY, outline).into_iter().map(|body| &outline.names(NameKind::BODY)[body]);
                 bodies.map(|body| format!("{body}.{quantity}")).collect()
             }
             (_, _, channel) => channel.iter().cloned().collect(),
@@ -103,7 +104,7 @@ impl HistogramEntry {
         check_order(self.from, self.to, ("from", "to"), report);
         match (&self.of, &self.quantity, &self.channel) {
             (Some(of), Some(quantity), None) => {
-                of.require(Kind::BODY, outline, "of", report);
+                of.require(NameKind::BODY, outline, "of", report);
                 sensors::check_quantity(quantity, "quantity", outline, report);
             }
             (None, None, Some(channel)) => sensors::check_channel(channel, "channel", outline, report),
@@ -148,8 +149,8 @@ impl PlotEntry {
     /// Reports channels of the axis to the right. They must exist, and belong to the same body as the channels drawn over them.
     fn check_x(&self, x: &str, outline: &Outline, report: &mut Diagnostics) {
         let upward = self.channels(outline);
-        if let Some(other) = pairs::over_another(x, upward.iter().map(String::as_str)) {
-            let (message, help) = pairs::told(x, other);
+        if let Some(other) = phase_portrait::over_another(x, upward.iter().map(String::as_str)) {
+            let (message, help) = phase_portrait::told(x, other);
             report.error("x", message).help(help);
         } else if !x.contains('*') {
             sensors::check_channel(x, "x", outline, report);
@@ -158,7 +159,7 @@ impl PlotEntry {
         }
         let told = report.problems().len();
         for channel in upward.iter().filter(|_| x.contains('*')) {
-            match pairs::beside(x, channel) {
+            match phase_portrait::beside(x, channel) {
                 Some(own) => sensors::check_channel(&own, "x", outline, report),
                 None => {
                     report.error("x", format!("{x:?} does not fit the owner of `{channel}`"));
@@ -227,10 +228,6 @@ impl Section for PlotsSection {
     const NAME: &'static str = "plots";
     const EXAMPLE: &'static str = "plots: [(title: \"energy\", channels: [\"energy.kinetic\", \"energy.total\"]), \
                                    (histogram: (of: \"*\", quantity: \"position.x\", from: -3, to: 3))]";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         if self.0.len() > MOST_PLOTS {

@@ -1,15 +1,18 @@
 //! The engine's sections, and a section and some entries of a plugin, for reading scenes. They build nothing, and only
 //! record their installation.
 
+use std::borrow::Cow;
+
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
+use schemars::{JsonSchema, Schema, SchemaGenerator};
 use serde::{Deserialize, Deserializer};
 
 use crate::integrate::ClockSection;
 use crate::record::sections::{FilmSection, FitCamera, LookCamera, camera};
-use crate::scene::units::{Position, QuadraticDamping, Speed};
+use crate::scene::units::{LengthPair, QuadraticDamping, Speed};
 use crate::scene::values::Names;
-use crate::scene::{Arity, Diagnostics, Entry, Kind, Outline, SceneAppExt, Section, Written};
+use crate::scene::{Arity, Diagnostics, Entry, NameKind, Outline, SceneAppExt, Section, WrittenEntry};
 use crate::world::material::{MaterialsSection, PairsSection};
 use crate::world::sections::{BodiesSection, FillSection, WallsSection};
 
@@ -20,8 +23,8 @@ fn log(app: &mut App, line: String) {
     app.world_mut().get_resource_or_init::<Log>().0.push(line);
 }
 
-// The models install these sections; here they are only read and checked.
-macro_rules! section {
+/// A type that is read and described as another one.
+macro_rules! read_as {
     ($name:ident, $data:ty) => {
         struct $name($data);
 
@@ -30,6 +33,23 @@ macro_rules! section {
                 <$data>::deserialize(reader).map(Self)
             }
         }
+
+        impl JsonSchema for $name {
+            fn schema_name() -> Cow<'static, str> {
+                <$data>::schema_name()
+            }
+
+            fn json_schema(generator: &mut SchemaGenerator) -> Schema {
+                <$data>::json_schema(generator)
+            }
+        }
+    };
+}
+
+// The models install these sections; here they are only read and checked.
+macro_rules! section {
+    ($name:ident, $data:ty) => {
+        read_as!($name, $data);
 
         impl Section for $name {
             const NAME: &'static str = <$data>::NAME;
@@ -60,13 +80,7 @@ section!(Pairs, PairsSection);
 
 macro_rules! camera {
     ($name:ident, $data:ty) => {
-        struct $name($data);
-
-        impl<'de> Deserialize<'de> for $name {
-            fn deserialize<R: Deserializer<'de>>(reader: R) -> Result<Self, R::Error> {
-                <$data>::deserialize(reader).map(Self)
-            }
-        }
+        read_as!($name, $data);
 
         impl Entry for $name {
             const SECTION: &'static str = camera::SECTION;
@@ -77,7 +91,7 @@ macro_rules! camera {
                 self.0.check(outline, report);
             }
 
-            fn install(entries: Vec<Written<Self>>, _outline: &Outline, app: &mut App) {
+            fn install(entries: Vec<WrittenEntry<Self>>, _outline: &Outline, app: &mut App) {
                 log(app, format!("camera {}", entries[0].text));
             }
         }
@@ -87,8 +101,8 @@ macro_rules! camera {
 camera!(Fit, FitCamera);
 camera!(Look, LookCamera);
 
-#[derive(Deserialize)]
-struct Gravity(Position);
+#[derive(Deserialize, JsonSchema)]
+struct Gravity(LengthPair);
 
 impl Section for Gravity {
     const NAME: &'static str = "gravity";
@@ -99,7 +113,7 @@ impl Section for Gravity {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Wind {
     speed: Speed,
@@ -107,14 +121,14 @@ struct Wind {
     gusts: Vec<Gust>,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Gust {
     at: f64,
     strength: Strength,
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 enum Strength {
     Weak,
@@ -145,7 +159,7 @@ impl Section for Wind {
     }
 }
 
-#[derive(Deserialize)]
+#[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drag {
     #[serde(default)]
@@ -161,12 +175,12 @@ impl Entry for Drag {
 
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("quadratic", self.quadratic);
-        self.of.require(Kind::BODY, outline, "of", report);
+        self.of.require(NameKind::BODY, outline, "of", report);
     }
 
-    fn install(entries: Vec<Written<Self>>, outline: &Outline, app: &mut App) {
+    fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         for entry in entries {
-            let of = entry.value.of.matching(Kind::BODY, outline);
+            let of = entry.value.of.matching(NameKind::BODY, outline);
             log(app, format!("{} of {of:?}", entry.text));
         }
     }

@@ -1,6 +1,6 @@
 //! Good scenes: the installed sections and their order.
 
-use super::super::{Kind, Source, load};
+use super::super::{NameKind, Source, load};
 use super::loaded;
 use super::plugins::{self, Log};
 
@@ -58,8 +58,8 @@ fn the_header_tells_what_the_scene_has() {
     let header = load(&mut plugins::app(), &Source::new("a.ron", GOOD)).unwrap();
     assert_eq!(header.title.as_deref(), Some("Everything once"));
     assert_eq!(header.remarks, ["the wind has no gusts"]);
-    assert_eq!(header.outline.names(Kind::BODY), ["a", "T", "b", "c", "gas_0", "gas_1", "gas_2"]);
-    assert_eq!(header.outline.names(Kind::MATERIAL), ["rock", "block"]);
+    assert_eq!(header.outline.names(NameKind::BODY), ["a", "T", "b", "c", "gas_0", "gas_1", "gas_2"]);
+    assert_eq!(header.outline.names(NameKind::MATERIAL), ["rock", "block"]);
     assert!(header.outline.is_none("contacts"));
     assert!(header.outline.has_section("forces"));
     assert!(!header.outline.has_section("gravity"));

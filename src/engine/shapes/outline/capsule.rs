@@ -4,15 +4,15 @@ use jostle_shapes as shapes;
 use jostle_shapes::ShapeError;
 
 use super::{Sided, sided};
-use crate::scene::units::{Length, Position};
+use crate::scene::units::{Length, LengthPair};
 
 sided! {
     /// A bar with round ends.
     CapsuleShape, "Capsule" {
         /// The beginning of its middle line, in m.
-        from: Position,
+        from: LengthPair,
         /// The end of its middle line, in m.
-        to: Position,
+        to: LengthPair,
         /// Half its thickness in m. Above zero.
         radius: Length,
     }

@@ -27,7 +27,7 @@ const MOST_SHAPES: usize = 4000;
 
 /// A convex part of a body, or a concave one in convex pieces.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Part {
+pub struct OutlinePart {
     /// Convex hulls, in the frame of the body.
     pub hulls: Vec<Hull>,
     /// The mass in kg; `None`: density times area.
@@ -40,9 +40,9 @@ pub struct Part {
 
 /// The parts of a shape.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub struct Parts {
+pub struct OutlineParts {
     /// Its parts, in the order of the scene.
-    pub parts: Vec<Part>,
+    pub parts: Vec<OutlinePart>,
     /// The corrections of the numbers of the scene.
     pub mended: Vec<String>,
 }
@@ -88,7 +88,7 @@ macro_rules! sided {
             $($(#[$about_field])* pub $field: $type,)*
             /// Its origin in the frame of the body, in m. Default: (0, 0).
             #[serde(default)]
-            pub at: crate::scene::units::Position,
+            pub at: crate::scene::units::LengthPair,
             /// Its turn about that point, in rad, counter-clockwise. Default: 0.
             #[serde(default)]
             pub angle: crate::scene::units::Angle,
@@ -124,14 +124,14 @@ macro_rules! list {
         /// round.
         #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
-        pub enum Shape {
+        pub enum OutlineShape {
             $($(#[$about])* $name($fields),)*
             /// `Compound([Rectangle(width: 1, height: 0.2), Disc(at: (0.5, 0), radius: 0.1)])`: several shapes as one body.
-            Compound(Vec<Shape>),
+            Compound(Vec<OutlineShape>),
         }
 
-        impl Shape {
-            fn as_sided(&self) -> Result<&dyn Sided, &[Shape]> {
+        impl OutlineShape {
+            fn as_sided(&self) -> Result<&dyn Sided, &[OutlineShape]> {
                 match self {
                     $(Self::$name(shape) => Ok(shape),)*
                     Self::Compound(shapes) => Err(shapes),
@@ -161,7 +161,7 @@ list! {
     Rack(rack::RackShape),
 }
 
-impl Shape {
+impl OutlineShape {
     /// Reports numbers of which no shape can be made.
     pub fn check(&self, report: &mut Diagnostics) {
         let shape = match self.as_sided() {
@@ -199,14 +199,14 @@ impl Shape {
     }
 
     /// Its parts; empty if it cannot be made.
-    pub fn parts(&self) -> Parts {
-        let mut parts = Parts::default();
+    pub fn parts(&self) -> OutlineParts {
+        let mut parts = OutlineParts::default();
         self.add_to(&mut parts, "");
         parts
     }
 
     /// Adds its parts; `place` is its path in messages.
-    fn add_to(&self, parts: &mut Parts, place: &str) {
+    fn add_to(&self, parts: &mut OutlineParts, place: &str) {
         let shape = match self.as_sided() {
             Ok(shape) => shape,
             Err(shapes) if shapes.len() > MOST_SHAPES => return,
@@ -219,7 +219,7 @@ impl Shape {
         let Common { at, angle, mass, density, collides } = shape.common();
         parts.mended.extend(made.mended.iter().map(|mended| format!("{place}{mended}")));
         let hulls = if angle == 0.0 && at == DVec2::ZERO { made.hulls } else { made.turned(angle).moved(at).hulls };
-        parts.parts.push(Part { hulls, mass, density, collides });
+        parts.parts.push(OutlinePart { hulls, mass, density, collides });
     }
 }
 

@@ -5,13 +5,13 @@ use jostle_shapes as shapes;
 use jostle_shapes::ShapeError;
 
 use super::{Sided, sided};
-use crate::scene::units::{Length, Position};
+use crate::scene::units::{Length, LengthPair};
 
 sided! {
     /// A polygon, convex or concave.
     PolygonShape, "Polygon" {
         /// Its corners in m, in order around it.
-        points: Vec<Position>,
+        points: Vec<LengthPair>,
         /// The radius of its corners in m. Corners that bend inwards stay sharp. Default: 0.
         #[serde(default)]
         rounding: Length,

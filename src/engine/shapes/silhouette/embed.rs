@@ -4,7 +4,7 @@ use std::fmt::Write;
 use std::path::Path;
 
 use super::{Covering, Fineness, Mask};
-use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
+use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
 use crate::scene::values::WholeNumber;
 use crate::scene::{Diagnostics, read_value, suggest};
 use crate::shapes::png::{MOST_ATOMS, Png};
@@ -22,8 +22,8 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
 const SHIPPED: &str = "example:";
 /// Name and contents of each picture in `assets/silhouettes/`.
 const PICTURES: &[(&str, &[u8])] = &[("cow.png", include_bytes!("../../../../assets/silhouettes/cow.png"))];
-const PICTURE: Wanted =
-    Wanted { most: 16 << 20, noun: "a PNG picture", smaller: "make it smaller: 400 pixels a side are enough" };
+const PICTURE: FileRequest =
+    FileRequest { most: 16 << 20, noun: "a PNG picture", smaller: "make it smaller: 400 pixels a side are enough" };
 /// The most different silhouettes of a scene, each of which takes up to half a second.
 const MOST_DIFFERENT: usize = 50;
 
@@ -41,14 +41,14 @@ struct Known {
 type Wrong = (String, String, &'static str);
 
 impl Embed for Pictures {
-    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, UnfitFile> {
         // The shape's reader and check report their mistakes in their words.
         let Some(png) = read_value::<Png>(entry).ok().filter(|png| png.numbers_are_good(&mut Diagnostics::new()))
         else {
             return Ok(None);
         };
         let (found, note) =
-            self.covering(folder, door, &png).map_err(|(message, help, field)| Unfit { message, help, field })?;
+            self.covering(folder, door, &png).map_err(|(message, help, field)| UnfitFile { message, help, field })?;
         let (height, covered) = (png.height.si(), &self.0[found].covering.discs);
         let mut fields = String::from("discs: [");
         for disc in covered {

@@ -6,7 +6,7 @@ use std::path::Path;
 use jostle_language::numbers::number;
 
 use super::{Outlines, Size, Wrong};
-use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
+use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
 use crate::scene::read_value;
 use crate::shapes::outline::{Sided, SvgShape};
 
@@ -19,17 +19,17 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
     example: SvgShape::EXAMPLE,
     reader: || Box::<Drawings>::default(),
 };
-const DRAWING: Wanted = Wanted { most: 4 << 20, noun: "an SVG file", smaller: "make the drawing simpler" };
+const DRAWING: FileRequest = FileRequest { most: 4 << 20, noun: "an SVG file", smaller: "make the drawing simpler" };
 
 /// The drawings that were read, so that each note appears once.
 #[derive(Default)]
 struct Drawings(Vec<(String, Outlines)>);
 
 impl Embed for Drawings {
-    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, UnfitFile> {
         // The shape's reader reports its mistakes in its words.
         let Ok(shape) = read_value::<SvgShape>(entry) else { return Ok(None) };
-        let told = |(message, help, field): Wrong| Unfit { message, help, field };
+        let told = |(message, help, field): Wrong| UnfitFile { message, help, field };
         let size = size(&shape).map_err(told)?;
         let name = &shape.file;
         let outlines = read(&shape, size, folder, door).map_err(told)?;

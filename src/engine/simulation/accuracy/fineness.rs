@@ -3,8 +3,8 @@
 use super::Tell;
 use super::trajectory::{MOST_MOMENTS, Trajectory};
 use crate::Simulation;
-use crate::integrate::clock::EventTiming;
-use crate::integrate::{Allowance, Pace};
+use crate::integrate::clock_section::EventTiming;
+use crate::integrate::{Allowance, StepPace};
 use crate::scene::{SceneError, SceneErrors};
 use crate::simulation::Plan;
 use jostle_language::numbers::number;
@@ -82,13 +82,13 @@ impl<'a> Trials<'a> {
         make: &'a mut dyn FnMut(&Plan) -> Result<Simulation, SceneErrors>,
         tell: Option<Tell>,
     ) -> Self {
-        let ladder = if matches!(plan.pace, Pace::Allowed(_)) { Ladder::Allowed } else { Ladder::Steps };
+        let ladder = if matches!(plan.pace, StepPace::Allowed(_)) { Ladder::Allowed } else { Ladder::Steps };
         let looks = match plan.pace {
-            Pace::Allowed(Allowance { longest, .. }) => {
+            StepPace::Allowed(Allowance { longest, .. }) => {
                 let most = MOST_MOMENTS as f64 * plan.tick / longest;
                 f64::from(steps.div_ceil(STEPS_BETWEEN_LOOKS)).min(most).max(1.0) as u32
             }
-            Pace::Even(_) => 1,
+            StepPace::Even(_) => 1,
         };
         Self {
             plan,
@@ -128,7 +128,7 @@ impl<'a> Trials<'a> {
         let many = (1.0 / fineness).ceil().clamp(1.0, 1e9) as u32;
         match self.ladder {
             Ladder::Allowed => {
-                if let Pace::Allowed(allowance) = &mut plan.pace {
+                if let StepPace::Allowed(allowance) = &mut plan.pace {
                     allowance.share = fineness;
                     // If no error bounds a step, two trials would make the same steps, and would not differ.
                     let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
@@ -140,8 +140,8 @@ impl<'a> Trials<'a> {
                     }
                 }
             }
-            Ladder::Steps => plan.pace = Pace::Even(many),
-            Ladder::Ticks => (plan.pace, plan.tick) = (Pace::Even(1), plan.tick / f64::from(many)),
+            Ladder::Steps => plan.pace = StepPace::Even(many),
+            Ladder::Ticks => (plan.pace, plan.tick) = (StepPace::Even(1), plan.tick / f64::from(many)),
         }
         plan
     }
@@ -164,7 +164,7 @@ impl<'a> Trials<'a> {
         plan.tick /= f64::from(looks);
         plan.detail.looks *= looks;
         let mut hastened = false;
-        if let Pace::Allowed(allowance) = &mut plan.pace
+        if let StepPace::Allowed(allowance) = &mut plan.pace
             && self.hasty
         {
             allowance.most_steps = HASTY_STEPS + STEPS_OF_A_SWING * f64::from(self.steps);
@@ -192,11 +192,11 @@ impl<'a> Trials<'a> {
     /// A plan in words.
     pub fn words(&self, plan: &Plan) -> String {
         match plan.pace {
-            Pace::Allowed(allowance) => {
+            StepPace::Allowed(allowance) => {
                 format!("{} with steps of an estimated error of {:.0e} each", plan.method, allowance.share)
             }
-            Pace::Even(1) => format!("{} with ticks of {} s", plan.method, number(plan.tick)),
-            Pace::Even(steps) => format!("{} with {steps} steps per tick", plan.method),
+            StepPace::Even(1) => format!("{} with ticks of {} s", plan.method, number(plan.tick)),
+            StepPace::Even(steps) => format!("{} with {steps} steps per tick", plan.method),
         }
     }
 

@@ -2,14 +2,14 @@
 
 use bevy_app::App;
 use glam::DVec2;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::units::{Angle, Mass, Position, Spin, Velocity};
-use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
+use crate::scene::units::{Angle, LengthPair, Mass, SpeedPair, Spin};
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
 use crate::shapes::mass_properties::{self, MassProperties};
-use crate::shapes::outline::Shape;
-use crate::shapes::{AtomSpec, Atoms};
+use crate::shapes::outline::OutlineShape;
+use crate::shapes::{AtomShape, AtomSpec};
 use crate::world::{IgnoredPairs, Kinematic, material, sections};
 
 use crate::world::sections::{KinematicEntry, ignored};
@@ -25,20 +25,20 @@ pub struct BodyEntry {
     pub name: String,
     /// Its discs. Default: none, for a body with a `shape`.
     #[serde(default)]
-    pub atoms: Option<Atoms>,
+    pub atoms: Option<AtomShape>,
     /// Its shape with sides, beside the discs if it has both. Default: none.
     #[serde(default)]
-    pub shape: Option<Shape>,
+    pub shape: Option<OutlineShape>,
     /// Its centre of mass at the start, in m. With `datum: Origin` it is the origin of its atoms, and may be absent.
     /// Default: (0, 0).
     #[serde(default)]
-    pub at: Option<Position>,
+    pub at: Option<LengthPair>,
     /// The turn of its atoms about that point, in rad, counter-clockwise. Default: 0.
     #[serde(default)]
     pub angle: Angle,
     /// The velocity of its centre of mass at the start, in m/s. Default: (0, 0).
     #[serde(default)]
-    pub velocity: Velocity,
+    pub velocity: SpeedPair,
     /// The spin at the start, in rad/s, counter-clockwise. Default: 0.
     #[serde(default)]
     pub spin: Spin,
@@ -84,14 +84,10 @@ impl Section for BodiesSection {
     const NAME: &'static str = "bodies";
     const EXAMPLE: &'static str = "bodies: [(name: \"ball\", at: (2, 3), atoms: Disc(radius: 0.2))]";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {
         for (index, body) in self.0.iter().enumerate() {
-            outline.declare(Kind::BODY, &body.name, &format!("[{index}].name"));
+            outline.declare(NameKind::BODY, &body.name, &format!("[{index}].name"));
             if body.touches() {
                 body.occupy(outline);
             }
@@ -205,12 +201,12 @@ impl BodyEntry {
 
     /// The discs that it is made of, without those of its shape.
     fn specs(&self) -> Vec<AtomSpec> {
-        self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
+        self.atoms.as_ref().map_or_else(Vec::new, AtomShape::specs)
     }
 
     /// The rule for mass and inertia of its discs.
     fn rule(&self) -> InertiaRule {
-        self.inertia.unwrap_or_else(|| self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule))
+        self.inertia.unwrap_or_else(|| self.atoms.as_ref().map_or_else(InertiaRule::default, AtomShape::own_rule))
     }
 
     /// Its centre of mass at the start, in m.

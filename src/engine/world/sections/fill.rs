@@ -5,17 +5,17 @@ use bevy_app::App;
 use glam::DVec2;
 use rand_chacha::ChaCha8Rng;
 use rand_chacha::rand_core::{Rng, SeedableRng};
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
-use crate::shapes::outline::Shape;
-use crate::shapes::{AtomSpec, Atoms};
+use crate::shapes::outline::OutlineShape;
+use crate::shapes::{AtomShape, AtomSpec};
 use crate::world::sections::Region;
-use crate::world::sections::sizes::Radii;
+use crate::world::sections::size_distribution::Radii;
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read. A
@@ -43,10 +43,10 @@ pub struct FillEntry {
     pub name: String,
     /// The atoms of each body. Without them it has a `shape`. Default: none.
     #[serde(default)]
-    pub atoms: Option<Atoms>,
+    pub atoms: Option<AtomShape>,
     /// The shape with sides of each body. Default: none.
     #[serde(default)]
-    pub shape: Option<Shape>,
+    pub shape: Option<OutlineShape>,
     /// The distribution of radii, in place of `atoms` and `shape`. Each body is then a disc of another radius, by the same
     /// seed. Default: all are equal.
     #[serde(default)]
@@ -117,10 +117,6 @@ impl Section for FillSection {
     const EXAMPLE: &'static str =
         "fill: [(name: \"gas\", atoms: Disc(radius: 0.02), count: 500, within: ((0, 0), (6, 6)), speed: 1, seed: 7)]";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {
         // Names of more than there may be in all are of no use, and take memory.
@@ -128,7 +124,7 @@ impl Section for FillSection {
         for (index, entry) in self.0.iter().enumerate() {
             let count = entry.count.0.min(left);
             left -= count;
-            outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
+            outline.declare_series(NameKind::BODY, &entry.name, count, &format!("[{index}].name"));
         }
     }
 
@@ -221,7 +217,7 @@ impl FillEntry {
         if let Some(radii) = &self.radius {
             return disc(radii.draw(1, self.seed.0).first().copied().unwrap_or(f64::NAN), density);
         }
-        let (specs, rule) = (self.specs(), self.atoms.as_ref().map_or_else(InertiaRule::default, Atoms::own_rule));
+        let (specs, rule) = (self.specs(), self.atoms.as_ref().map_or_else(InertiaRule::default, AtomShape::own_rule));
         match &self.shape {
             Some(shape) => mass_properties::of_parts(&specs, &shape.parts().parts, None, InertiaRule::Union, density),
             None => mass_properties::of(&specs, None, rule, density),
@@ -236,7 +232,7 @@ impl FillEntry {
 
     /// The discs of each, without those of its shape.
     fn specs(&self) -> Vec<AtomSpec> {
-        self.atoms.as_ref().map_or_else(Vec::new, Atoms::specs)
+        self.atoms.as_ref().map_or_else(Vec::new, AtomShape::specs)
     }
 
     /// The radius in m of a circle about the centre of mass that holds the whole body. It does not depend on the
@@ -430,19 +426,19 @@ impl Grid {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::scene::units::Position;
+    use crate::scene::units::LengthPair;
     use crate::shapes::disc::OneDisc;
 
     fn gas(count: u64, radius: f64) -> FillSection {
         let disc = OneDisc { radius: Length::new(radius), mass: None, stiffness: None };
         FillSection(vec![FillEntry {
             name: "gas".into(),
-            atoms: Some(Atoms::Disc(disc)),
+            atoms: Some(AtomShape::Disc(disc)),
             shape: None,
             radius: None,
             material: None,
             count: WholeNumber(count),
-            within: vec![Position::new(0.0, 0.0), Position::new(2.0, 1.0)].into(),
+            within: vec![LengthPair::new(0.0, 0.0), LengthPair::new(2.0, 1.0)].into(),
             speed: Speed::new(3.0),
             seed: WholeNumber(7),
             gap: Length::default(),

@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use super::bodies::BodyEntry;
-use crate::scene::{Diagnostics, Kind, Outline, suggest};
+use crate::scene::{Diagnostics, NameKind, Outline, suggest};
 
 /// Pairs of bodies that ignore each other, at most: they take 16 bytes each.
 const MOST: usize = 1 << 22;
@@ -45,7 +45,7 @@ pub(super) fn check(bodies: &[BodyEntry], report: &mut Diagnostics) {
 /// The pairs of bodies of which one ignores a group of the other, by their keys.
 pub(super) fn pairs(bodies: &[BodyEntry], outline: &Outline) -> Vec<(u64, u64)> {
     let groups = groups(bodies);
-    let key = |index: usize| outline.position(Kind::BODY, &bodies[index].name).map(|index| index as u64);
+    let key = |index: usize| outline.position(NameKind::BODY, &bodies[index].name).map(|index| index as u64);
     let of_body = |(index, body): (usize, &BodyEntry)| {
         let ignored = body.ignores.iter().filter_map(|group| groups.get(&**group)).flatten();
         ignored.filter(|&&other| other != index).filter_map(|&other| Some((key(index)?, key(other)?))).collect()

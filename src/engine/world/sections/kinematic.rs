@@ -4,7 +4,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use crate::scene::Diagnostics;
-use crate::scene::units::{Angle, Position, Spin, Time, Velocity};
+use crate::scene::units::{Angle, LengthPair, SpeedPair, Spin, Time};
 use crate::world::kinematic::{Path, PathPoint};
 
 /// The motion of a body that no force pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
@@ -14,7 +14,7 @@ use crate::world::kinematic::{Path, PathPoint};
 #[schemars(rename = "Kinematic")]
 pub struct KinematicEntry {
     /// The velocity at the start, in m/s. Without a path it stays so. Default: (0, 0).
-    pub velocity: Velocity,
+    pub velocity: SpeedPair,
     /// The spin at the start, in rad/s. Without a path it stays so. Default: 0.
     pub spin: Spin,
     /// The points of its path. Default: none.
@@ -32,13 +32,13 @@ pub struct PathEntry {
     pub time: Time,
     /// The displacement from the start, in m. Default: (0, 0).
     #[serde(default)]
-    pub by: Position,
+    pub by: LengthPair,
     /// Its turn from its angle at the start, in rad. Default: 0.
     #[serde(default)]
     pub turn: Angle,
     /// Its velocity there, in m/s. With (0, 0) the body stops. Default: (0, 0).
     #[serde(default)]
-    pub velocity: Velocity,
+    pub velocity: SpeedPair,
     /// Its spin there, in rad/s. Default: 0.
     #[serde(default)]
     pub spin: Spin,

@@ -6,7 +6,7 @@ mod ignored;
 pub mod kinematic;
 pub mod packing;
 pub mod region;
-pub mod sizes;
+pub mod size_distribution;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -20,12 +20,12 @@ use bevy_app::App;
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use super::hull::Mended;
+use super::hull::MendedShapes;
 use super::material::{MaterialIndex, Materials, MaterialsSection, PairsSection};
 use super::spawn::{NextKey, Series, after_others, spawn_series};
 use super::{Atom, Intangible, Line, Motion, Name, NewBody, Origin, Wall};
-use crate::scene::names::of_series;
-use crate::scene::{Kind, Outline, SceneAppExt, register_embedding};
+use crate::scene::name_series::of_series;
+use crate::scene::{NameKind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::MassProperties;
 use crate::shapes::{AtomSpec, silhouette, svg};
 
@@ -91,7 +91,7 @@ fn spawn_entries(section: BodiesSection, outline: &Outline, world: &mut World) {
             ..made_of.body(&properties)
         };
         for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
-            world.get_resource_or_init::<Mended>().add(&body.name, mended);
+            world.get_resource_or_init::<MendedShapes>().add(&body.name, mended);
         }
         let (key, body) = keyed(body, outline);
         let entity = body.spawn_keyed(world, key);
@@ -130,7 +130,7 @@ pub fn spawn_fill(section: FillSection, outline: &Outline, world: &mut World) {
             properties.intangible.append(&mut properties.hulls);
         }
         for mended in entry.shape.iter().flat_map(|shape| shape.parts().mended) {
-            world.get_resource_or_init::<Mended>().add(&entry.name, mended);
+            world.get_resource_or_init::<MendedShapes>().add(&entry.name, mended);
         }
         let body = |number: usize| {
             let Placed { position, angle, velocity, radius } = placed[number];
@@ -150,12 +150,12 @@ fn material(world: &World, name: Option<&str>) -> MaterialIndex {
 
 /// The key of a body is its index in the outline. Names are looked up there, and keys are the canonical order.
 fn keyed(body: NewBody, outline: &Outline) -> (Option<u64>, NewBody) {
-    (outline.position(Kind::BODY, &body.name).map(|index| index as u64), body)
+    (outline.position(NameKind::BODY, &body.name).map(|index| index as u64), body)
 }
 
 /// Bodies that are named by their numbers. They follow one another in the outline.
 fn series(prefix: String, count: usize, lone_discs: bool, outline: &Outline) -> Series {
-    let key = outline.position(Kind::BODY, &of_series(&prefix, 0)).map(|index| index as u64);
+    let key = outline.position(NameKind::BODY, &of_series(&prefix, 0)).map(|index| index as u64);
     Series { prefix, count, key, lone_discs }
 }
 

@@ -8,7 +8,7 @@ use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use crate::scene::Diagnostics;
-use crate::scene::units::Position;
+use crate::scene::units::LengthPair;
 
 /// The largest number of corners.
 pub const MOST_CORNERS: usize = 1000;
@@ -35,7 +35,7 @@ impl<'de> Visitor<'de> for Corners {
     }
 
     fn visit_seq<A: SeqAccess<'de>>(self, mut values: A) -> Result<Region, A::Error> {
-        let mut points: Vec<Position> = Vec::new();
+        let mut points: Vec<LengthPair> = Vec::new();
         while let Some(point) = values.next_element()? {
             points.push(point);
         }
@@ -57,7 +57,7 @@ impl JsonSchema for Region {
     fn json_schema(generator: &mut SchemaGenerator) -> Schema {
         json_schema!({
             "type": ["array", "string"],
-            "items": generator.subschema_for::<Position>(),
+            "items": generator.subschema_for::<LengthPair>(),
             "minItems": 2,
             "maxItems": MOST_CORNERS,
             "x-value": "`((x, y), (x, y), ..)`",
@@ -66,9 +66,9 @@ impl JsonSchema for Region {
     }
 }
 
-impl From<Vec<Position>> for Region {
-    fn from(points: Vec<Position>) -> Self {
-        let given: Vec<DVec2> = points.into_iter().map(Position::si).collect();
+impl From<Vec<LengthPair>> for Region {
+    fn from(points: Vec<LengthPair>) -> Self {
+        let given: Vec<DVec2> = points.into_iter().map(LengthPair::si).collect();
         let corners = match given[..] {
             [a, b] => {
                 let (low, high) = (a.min(b), a.max(b));
@@ -166,7 +166,7 @@ mod tests {
     use super::*;
 
     fn region(points: &[(f64, f64)]) -> Region {
-        points.iter().map(|&(x, y)| Position::new(x, y)).collect::<Vec<_>>().into()
+        points.iter().map(|&(x, y)| LengthPair::new(x, y)).collect::<Vec<_>>().into()
     }
 
     #[test]

@@ -7,8 +7,8 @@ use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
-use crate::scene::units::{Length, Position, Velocity};
-use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
+use crate::scene::units::{Length, LengthPair, SpeedPair};
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
 use crate::world::{material, sections};
 
 /// One wall: the half-plane behind the line through two points. With `from` and `to` it is a strip with two round ends.
@@ -21,17 +21,17 @@ pub struct WallEntry {
     pub name: String,
     /// The point of a half-plane to the left, seen from the open side, in m. Default: none, for a strip.
     #[serde(default)]
-    pub left: Option<Position>,
+    pub left: Option<LengthPair>,
     /// The point of a half-plane to the right, seen from the open side, in m. Default: none, for a strip.
     #[serde(default)]
-    pub right: Option<Position>,
+    pub right: Option<LengthPair>,
     /// The beginning of the middle line of a strip, in m. Bodies hit a strip from both sides. Default: none, for a
     /// half-plane.
     #[serde(default)]
-    pub from: Option<Position>,
+    pub from: Option<LengthPair>,
     /// The end of the middle line of a strip, in m. Default: none, for a half-plane.
     #[serde(default)]
-    pub to: Option<Position>,
+    pub to: Option<LengthPair>,
     /// The thickness of a strip, in m. Its ends are round. Default: 0.
     #[serde(default)]
     pub thickness: Option<Length>,
@@ -42,19 +42,19 @@ pub struct WallEntry {
     /// The points of a line, in m. It is one surface, open to the left of the way from the first point to the last. It
     /// is closed if both are the same. Default: none.
     #[serde(default)]
-    pub line: Option<Vec<Position>>,
+    pub line: Option<Vec<LengthPair>>,
     /// The points of a line that is open upwards, in m, from left to right. They are a list, or a file, `(file:
     /// "ground.csv")`. They may also be a function of `x`, `(of: "0.1 * sin(3 * x)", from: -10, to: 10, pieces: 200)`.
     /// Default: none.
     #[serde(default)]
     #[schemars(with = "Option<Heights>")]
-    pub heights: Option<Vec<Position>>,
+    pub heights: Option<Vec<LengthPair>>,
     /// The name of its material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
     /// The velocity of the surface of a half-plane along the wall, in m/s. Such a wall is a belt. Default: (0, 0).
     #[serde(default)]
-    pub surface_velocity: Velocity,
+    pub surface_velocity: SpeedPair,
 }
 
 /// The content of `heights`, for the schema. Scenes are read with the points of the file or function in its place.
@@ -73,7 +73,7 @@ impl JsonSchema for Heights {
         let text = |about: &str| json_schema!({ "type": "string", "description": about });
         let length = generator.subschema_for::<Length>();
         json_schema!({
-            "anyOf": [generator.subschema_for::<Vec<Position>>(), {
+            "anyOf": [generator.subschema_for::<Vec<LengthPair>>(), {
                 "type": "object",
                 "properties": {
                     "file": text("The file."),
@@ -122,14 +122,10 @@ impl Section for WallsSection {
     const NAME: &'static str = "walls";
     const EXAMPLE: &'static str = "walls: [(name: \"floor\", left: (6, 0), right: (0, 0), material: \"rock\")]";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the walls' names.
     fn declare(&self, outline: &mut Outline) {
         for (index, wall) in self.0.iter().enumerate() {
-            outline.declare(Kind::WALL, &wall.name, &format!("[{index}].name"));
+            outline.declare(NameKind::WALL, &wall.name, &format!("[{index}].name"));
             let [left, right] = wall.ends();
             let points = wall.points();
             match wall.thickness() {
@@ -195,7 +191,7 @@ impl WallEntry {
     }
 
     /// The field that holds the points of a line, and its points.
-    fn surface(&self) -> Option<(&'static str, &[Position])> {
+    fn surface(&self) -> Option<(&'static str, &[LengthPair])> {
         let line = self.line.as_deref().map(|points| ("line", points));
         line.or_else(|| self.heights.as_deref().map(|points| ("heights", points)))
     }
@@ -220,7 +216,7 @@ impl WallEntry {
     }
 
     /// Reports fields that a line does not have, points that are no line, and heights that do not ascend.
-    fn check_points(&self, field: &'static str, points: &[Position], report: &mut Diagnostics) {
+    fn check_points(&self, field: &'static str, points: &[LengthPair], report: &mut Diagnostics) {
         let others = [
             ("heights", self.heights.is_some()),
             ("left", self.left.is_some()),

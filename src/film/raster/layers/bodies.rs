@@ -6,7 +6,7 @@ use crate::raster::camera::Camera;
 use crate::raster::canvas::{Canvas, Ink};
 use crate::raster::silhouette::{Field, Silhouette, Stand};
 use crate::raster::theme::Theme;
-use jostle_frames::frame::{BodyLook, Disc, Pose, Rgb};
+use jostle_frames::frame::{BodyLook, BodyPose, Disc, Rgb};
 
 /// Atoms with a smaller radius than this, in pixels, are not marked: the marks would be noise.
 const SMALLEST_MARKED: f64 = 5.0;
@@ -46,7 +46,7 @@ impl Figure {
     }
 
     /// Draws the body at its pose.
-    pub(in crate::raster) fn draw(&self, pose: &Pose, camera: &Camera, canvas: &mut Canvas, field: &mut Field) {
+    pub(in crate::raster) fn draw(&self, pose: &BodyPose, camera: &Camera, canvas: &mut Canvas, field: &mut Field) {
         let center = camera.to_picture(pose.position);
         let (sine, cosine) = (libm::sin(pose.angle), libm::cos(pose.angle));
         let stand = Stand { x: center.x, y: center.y, cosine, sine };

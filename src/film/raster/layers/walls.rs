@@ -109,7 +109,7 @@ pub(in crate::raster) fn room(walls: &[WallLook], camera: &Camera, theme: &Theme
     let corners = [(0.0, 0.0), (width, 0.0), (width, height), (0.0, height)];
     let picture = corners.into_iter().map(|(x, y)| DVec2::new(x, y)).collect();
     let open = half_planes(walls, camera, theme, 0.0).iter().fold(picture, cut);
-    let bounds = crate::raster::camera::Bounds::of_points(open);
+    let bounds = crate::raster::camera::WorldRectangle::of_points(open);
     bounds.map_or(Room { low: DVec2::ZERO, high: DVec2::new(width, height) }, |bounds| Room {
         low: bounds.low,
         high: bounds.high,

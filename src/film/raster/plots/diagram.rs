@@ -4,9 +4,9 @@ use tiny_skia::Pixmap;
 
 use super::LETTERS;
 use super::chart::{Chart, Naming, Tools};
+use super::panel_style::{Sizes, Tones};
 use super::pen::Align;
 use super::stroke::{Area, Point, Sheet};
-use super::style::{Sizes, Tones};
 use crate::raster::canvas::{Canvas, Ink, fill};
 use crate::raster::theme::{Theme, Tint};
 use crate::raster::{SizeError, canvas};

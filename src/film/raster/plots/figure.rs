@@ -3,8 +3,8 @@
 use tiny_skia::Pixmap;
 
 use super::chart::{Chart, Naming, Tools};
+use super::panel_style::{Sizes, Tones};
 use super::stroke::Area;
-use super::style::{Sizes, Tones};
 use crate::raster::canvas::{Canvas, fill};
 use crate::raster::{SizeError, Theme};
 use jostle_frames::plot::Plot;

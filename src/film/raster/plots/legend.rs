@@ -2,9 +2,9 @@
 
 use tiny_skia::Pixmap;
 
+use super::panel_style::{Sizes, Tones};
 use super::pen::{Align, patch};
 use super::stroke::{Area, Sheet};
-use super::style::{Sizes, Tones};
 use crate::raster::canvas::{self, Canvas};
 use crate::raster::theme::Theme;
 use jostle_frames::frame::Rgb;

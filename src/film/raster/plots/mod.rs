@@ -7,9 +7,9 @@ mod chart;
 mod diagram;
 mod figure;
 mod legend;
+mod panel_style;
 mod pen;
 mod stroke;
-mod style;
 
 use std::sync::Arc;
 
@@ -26,8 +26,8 @@ use figure::LETTERS;
 use jostle_frames::frame::Rgb;
 use jostle_frames::plot::Board;
 use legend::Key;
+use panel_style::{Sizes, Tones};
 use stroke::Area;
-use style::{Sizes, Tones};
 
 /// The share of the picture that the panel takes of its longer side.
 const SHARE: f32 = 0.297;

@@ -72,10 +72,10 @@ impl Language {
 
     fn named_schemas(&self) -> Vec<(String, &Value)> {
         let sections = self.sections.iter().flat_map(|section| match &section.content {
-            Content::Value(schema) => schema.iter().map(|schema| (section.name.clone(), schema)).collect::<Vec<_>>(),
+            Content::Value(schema) => vec![(section.name.clone(), schema)],
             Content::Entries(_, entries) => {
                 let named = |entry: &'_ Entry| format!("{}.{}", section.name, entry.name);
-                entries.iter().filter_map(|entry| Some((named(entry), entry.schema.as_ref()?))).collect()
+                entries.iter().map(|entry| (named(entry), &entry.schema)).collect()
             }
         });
         sections.chain(self.definitions.iter().map(|(name, schema)| (name.clone(), schema))).collect()
@@ -168,7 +168,7 @@ impl<'a> Manual<'a> {
 
     fn meaning(&self, section: &'a Section) -> &'a str {
         match &section.content {
-            Content::Value(Some(schema)) => {
+            Content::Value(schema) => {
                 meaning_of(if schema["description"].is_null() { self.language.resolve(schema).1 } else { schema })
             }
             _ => &section.meaning,
@@ -181,8 +181,7 @@ impl<'a> Manual<'a> {
         self.paragraph(meaning);
         self.example(section.example);
         match &section.content {
-            Content::Value(None) => self.paragraph("It has no described fields."),
-            Content::Value(Some(schema)) => {
+            Content::Value(schema) => {
                 if let (Some(name), _) = self.language.resolve(schema) {
                     self.places.insert(name, section.name.clone());
                 }
@@ -207,14 +206,10 @@ impl<'a> Manual<'a> {
 
     fn entry(&mut self, section: &str, entry: &'a Entry) {
         self.paragraph(&format!("### `{section}: {}`", entry.name));
-        let Some(schema) = &entry.schema else {
-            self.example(entry.example);
-            return self.paragraph("It has no described fields.");
-        };
-        let (_, about) = self.language.resolve(schema);
+        let (_, about) = self.language.resolve(&entry.schema);
         self.paragraph(meaning_of(about));
         self.example(entry.example);
-        self.value(entry.name, schema);
+        self.value(entry.name, &entry.schema);
     }
 }
 

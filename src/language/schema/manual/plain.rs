@@ -8,14 +8,11 @@ impl Language {
     pub fn told(&self, section: &str, entry: Option<&str>) -> Option<String> {
         let section = self.sections.iter().chain([&self.repeat]).find(|other| other.name == section)?;
         let schema = match (entry, &section.content) {
-            (None, Content::Value(schema)) => schema.as_ref(),
+            (None, Content::Value(schema)) => schema,
             (None, Content::Entries(..)) => return Some(section.meaning.clone()),
-            (Some(name), Content::Entries(_, entries)) => {
-                entries.iter().find(|entry| entry.name == name)?.schema.as_ref()
-            }
+            (Some(name), Content::Entries(_, entries)) => &entries.iter().find(|entry| entry.name == name)?.schema,
             (Some(_), Content::Value(_)) => return None,
         };
-        let Some(schema) = schema else { return Some("It has no described fields.".to_owned()) };
         let manual = Manual::new(self);
         let (_, whole) = self.resolve(schema);
         let mut told = meaning_of(if schema["description"].is_null() { whole } else { schema }).to_owned();

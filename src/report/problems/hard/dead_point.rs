@@ -12,7 +12,7 @@ use glam::DVec2;
 
 use super::{Case, Extent, Reading, Readings, Threshold, load};
 use crate::problems::linkage::bar;
-use crate::problems::{EventTiming, Setting, methods};
+use crate::problems::{EventTiming, ProblemSetting, methods};
 
 /// The case.
 pub const CASE: Case = Case {
@@ -43,7 +43,7 @@ fn driven(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
         [bar("crank", DVec2::ZERO, crank, 1.0), bar("coupler", crank, top, 1.0), bar("rocker", base, top, 1.0)]
             .concat();
     let tick = 1e-3;
-    let clock = Setting { method, tick, ..Setting::default() }.clock(1.0);
+    let clock = ProblemSetting { method, tick, ..ProblemSetting::default() }.clock(1.0);
     let mut simulation = load(&format!(
         "Scene({clock}, contacts: None, bodies: [{bodies}],
         joints: [Revolute(a: World, anchor_a: (0, 0), b: \"crank\", anchor_b: (-0.05, 0)),
@@ -81,7 +81,7 @@ fn passes(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     };
     let coupler = bar("coupler", DVec2::new(0.0, 1.0), DVec2::new(1.0, 1.0), 1.0);
     let coupler = coupler.replace("angle:", &format!("velocity: ({:?}, 0), angle:", -spin));
-    let setting = Setting { method, tick, events: EventTiming::Auto, ..Setting::default() };
+    let setting = ProblemSetting { method, tick, events: EventTiming::Auto, ..ProblemSetting::default() };
     let clock = setting.clock(tick * f64::from(ticks));
     let mut simulation = load(&format!(
         "Scene({clock}, contacts: None, bodies: [{} {} {coupler}],

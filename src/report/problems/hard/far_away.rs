@@ -8,7 +8,7 @@ use std::error::Error;
 use glam::DVec2;
 
 use super::{Case, Extent, Readings, load, run_to, sizes};
-use crate::problems::{Setting, Truth, cluster_rotation, elastic_bounce};
+use crate::problems::{ProblemSetting, Truth, cluster_rotation, elastic_bounce};
 
 /// The case.
 pub const CASE: Case = Case {
@@ -55,7 +55,7 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
         "each contact of 32 ms changes the velocity by up to k ulp/2 t/m, and flights make places of it",
     );
 
-    let setting = Setting { method: "VelocityVerlet", tick: 1e-4, ..Setting::default() };
+    let setting = ProblemSetting { method: "VelocityVerlet", tick: 1e-4, ..ProblemSetting::default() };
     let text = (cluster_rotation::PROBLEM.scene)(&setting, 1.0);
     let mut here = load(&text)?;
     let mut there = load(&text.replace("at: (0, 0), velocity", &format!("at: ({FAR:?}, {FAR:?}), velocity")))?;

@@ -12,7 +12,7 @@ use glam::DVec2;
 use super::{Case, Extent, Readings, load, run_to};
 use crate::problems::linkage::{bar, greatest, turned_off};
 use crate::problems::loaded_rope::{COUNT, TRUTH, scene_of};
-use crate::problems::{Setting, Truth};
+use crate::problems::{ProblemSetting, Truth};
 use jostle_engine::Simulation;
 use jostle_engine::joints::Joint;
 
@@ -51,7 +51,7 @@ fn force(simulation: &Simulation, name: &str) -> DVec2 {
 
 /// The rope hangs straight: each pin bears the weight below it. `masses` are those of a link and of the load.
 fn hangs(masses: (f64, f64), tick: f64, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
-    let setting = Setting { method: "VelocityVerlet", tick, ..Setting::default() };
+    let setting = ProblemSetting { method: "VelocityVerlet", tick, ..ProblemSetting::default() };
     let mut simulation = load(&scene_of(&setting.clock(100.0 * tick), masses, 0.0))?;
     simulation.run_to_end()?;
     let (link, load) = masses;
@@ -73,7 +73,7 @@ fn swings(until: f64, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     let truth = Truth::read(TRUTH);
     let observable = "link angles after release of the straight rope";
     let error = |method: &str, tick: f64| -> Result<f64, Box<dyn Error>> {
-        let setting = Setting { method, tick, ..Setting::default() };
+        let setting = ProblemSetting { method, tick, ..ProblemSetting::default() };
         let mut simulation = load(&scene_of(&setting.clock(until), (0.01, 100.0), 30.0))?;
         let mut worst = 0.0_f64;
         for time in truth.times(observable).into_iter().filter(|time| *time <= until) {
@@ -105,7 +105,7 @@ fn bob(masses: (f64, f64), readings: &mut Readings) -> Result<(), Box<dyn Error>
     let square = GRAVITY * (bob_mass + bar_mass / 2.0) / (bob_mass + bar_mass / 3.0);
     let ticks = 200;
     let tick = QUARTER / square.sqrt() / f64::from(ticks);
-    let setting = Setting { method: "Dop853", tick, ..Setting::default() };
+    let setting = ProblemSetting { method: "Dop853", tick, ..ProblemSetting::default() };
     let clock = setting.clock(tick * f64::from(ticks));
     let bar = bar("bar", DVec2::ZERO, DVec2::X, bar_mass);
     let mut simulation = load(&format!(

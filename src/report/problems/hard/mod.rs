@@ -194,7 +194,7 @@ impl Readings {
 }
 
 /// How a case is run and measured.
-pub type Run = fn(Extent, &mut Readings) -> Result<(), Box<dyn Error>>;
+pub type RunCase = fn(Extent, &mut Readings) -> Result<(), Box<dyn Error>>;
 
 /// A case.
 #[derive(Clone, Copy)]
@@ -210,7 +210,7 @@ pub struct Case {
     /// The omissions of its short form; empty if there are none.
     pub short: &'static str,
     /// Runs and measures it.
-    pub run: Run,
+    pub run: RunCase,
 }
 
 impl Case {

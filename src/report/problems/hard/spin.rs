@@ -5,7 +5,7 @@
 use std::error::Error;
 
 use super::{Case, Extent, METHODS, Readings, kinetic};
-use crate::problems::{Setting, Truth, cluster_rotation};
+use crate::problems::{ProblemSetting, Truth, cluster_rotation};
 use jostle_engine::Simulation;
 
 /// The case.
@@ -34,7 +34,7 @@ fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     let truth = Truth::read(cluster_rotation::TRUTH);
     let center = truth.numbers("centre of mass");
     for method in METHODS {
-        let setting = Setting { method, tick: 1e-4, ..Setting::default() };
+        let setting = ProblemSetting { method, tick: 1e-4, ..ProblemSetting::default() };
         let mut simulation = cluster_rotation::PROBLEM.load(&setting)?;
         let bodies = simulation.bodies();
         let made = [

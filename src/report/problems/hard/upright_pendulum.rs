@@ -8,7 +8,7 @@ use std::error::Error;
 use super::{Case, Extent, Readings, load, run_to};
 use crate::problems::linkage::hanging;
 use crate::problems::pendulum::{TRUTH, observable, scene_of};
-use crate::problems::{Setting, Truth};
+use crate::problems::{ProblemSetting, Truth};
 use jostle_engine::joints::Joint;
 
 /// The case.
@@ -28,7 +28,7 @@ const DURATION: f64 = 10.0;
 
 fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
     let truth = Truth::read(TRUTH);
-    let setting = Setting { method: "Dop853", tick: 1.0 / RATE, ..Setting::default() };
+    let setting = ProblemSetting { method: "Dop853", tick: 1.0 / RATE, ..ProblemSetting::default() };
     for degrees in [10, 90, 179] {
         let mut simulation = load(&scene_of(&setting.clock(DURATION), &[degrees]))?;
         let (mut place, mut pull) = (0.0_f64, 0.0_f64);

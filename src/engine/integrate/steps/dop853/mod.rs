@@ -17,7 +17,7 @@ mod tests;
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use coefficients::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 use serde::{Deserialize, Serialize};
 
@@ -79,7 +79,7 @@ impl OneStep for Dop853 {
         Memory::of(self)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         *self = recall(bytes)?;
         Ok(())
     }

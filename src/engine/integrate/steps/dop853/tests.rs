@@ -1,8 +1,8 @@
 //! Tests of the coefficients, of the motion, and of the error estimate.
 
-use super::super::problems::{MOTIONS, Motion};
+use super::super::problems::{MOTIONS, ProblemMotion};
 use super::super::rooted_trees::Trees;
-use super::super::trials::{Run, demand_order, distance, slope};
+use super::super::trials::{TrialRun, demand_order, distance, slope};
 use super::*;
 
 /// A sum as a list of the weights of all stages.
@@ -81,7 +81,7 @@ fn the_order_is_8() {
 #[test]
 fn errors_inside_and_estimates_fall_with_the_eighth_power() {
     for motion in MOTIONS {
-        let points = |error: fn(&mut Run, f64) -> f64, longest: f64| -> Vec<_> {
+        let points = |error: fn(&mut TrialRun, f64) -> f64, longest: f64| -> Vec<_> {
             let longest = longest * motion.duration / motion.steps;
             let lengths = (0..6).map(|number| longest / libm::pow(1.15, f64::from(number)));
             lengths.map(|length| (libm::log(length), libm::log(mean_error(motion, |run| error(run, length))))).collect()
@@ -105,10 +105,10 @@ fn the_estimate_is_realistic() {
                 let mut length = motion.duration / motion.steps;
                 // The length at which the estimate reaches the allowance: it is a power of the length.
                 for _ in 0..40 {
-                    *run = Run::from(motion, time, state.clone());
+                    *run = TrialRun::from(motion, time, state.clone());
                     length *= libm::pow(allowed / estimate(run, length).max(1e-8 * allowed), 1.0 / 8.0);
                 }
-                *run = Run::from(motion, time, state);
+                *run = TrialRun::from(motion, time, state);
                 run.step(&mut Dop853::default(), length);
                 run.error()
             });
@@ -120,7 +120,7 @@ fn the_estimate_is_realistic() {
 /// The estimate is in units of the allowance, and numbers without a bound do not count.
 #[test]
 fn the_estimate_looks_at_bounded_numbers_only() {
-    let mut run = Run::of(MOTIONS[0]);
+    let mut run = TrialRun::of(MOTIONS[0]);
     let mut method = Dop853::default();
     run.step(&mut method, 0.5);
     let of = |scale: [f64; 2]| method.error(&scale).unwrap();
@@ -134,7 +134,7 @@ fn the_estimate_looks_at_bounded_numbers_only() {
 }
 
 /// The largest error inside a step, at nine places.
-fn error_inside(run: &mut Run, length: f64) -> f64 {
+fn error_inside(run: &mut TrialRun, length: f64) -> f64 {
     let (motion, state, time) = (run.flow.motion, run.state.clone(), run.time);
     let (mut rates, mut change) = (vec![0.0; state.len()], vec![0.0; state.len()]);
     (motion.rates)(time, &state, &mut rates);
@@ -151,16 +151,16 @@ fn error_inside(run: &mut Run, length: f64) -> f64 {
 }
 
 /// The estimated error of a step.
-fn estimate(run: &mut Run, length: f64) -> f64 {
+fn estimate(run: &mut TrialRun, length: f64) -> f64 {
     let mut method = Dop853::default();
     run.step(&mut method, length);
     method.error(&vec![1.0; run.state.len()]).unwrap()
 }
 
 /// Root of the mean square of an error over starts at 16 times of a motion.
-fn mean_error(motion: Motion, mut error: impl FnMut(&mut Run) -> f64) -> f64 {
+fn mean_error(motion: ProblemMotion, mut error: impl FnMut(&mut TrialRun) -> f64) -> f64 {
     let squares = (0..16).map(|phase| {
-        let error = error(&mut Run::at(motion, motion.duration * (f64::from(phase) + 0.31) / 16.0));
+        let error = error(&mut TrialRun::at(motion, motion.duration * (f64::from(phase) + 0.31) / 16.0));
         error * error
     });
     (squares.sum::<f64>() / 16.0).sqrt()

@@ -4,7 +4,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use super::{MOST_ATOMS, PackingEntry, PackingTable, PackingsSection};
-use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, Unfit, Wanted};
+use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
 use crate::scene::{Section, count, read_value};
 use jostle_language::digest::of_bytes;
 
@@ -17,7 +17,8 @@ pub(in crate::world) const EMBEDDING: Embedding = Embedding {
     example: PackingsSection::EXAMPLE,
     reader: || Box::<Tables>::default(),
 };
-const TABLE: Wanted = Wanted { most: 256 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
+const TABLE: FileRequest =
+    FileRequest { most: 256 << 20, noun: "a table of comma-separated values", smaller: "keep fewer rows" };
 
 /// The tables that were read, with the hashes of their bytes. Entries name tables by these hashes, so that the made
 /// scene changes with its tables.
@@ -28,10 +29,13 @@ struct Tables(Vec<(PathBuf, u64)>);
 type Wrong = (String, String);
 
 impl Embed for Tables {
-    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, Unfit> {
+    fn embed(&mut self, entry: &str, folder: Option<&Path>, door: &Door) -> Result<Option<Embedded>, UnfitFile> {
         let Ok(entry) = read_value::<PackingEntry>(entry) else { return Ok(None) };
-        let (key, read) =
-            self.key(&entry.file, folder, door).map_err(|(message, help)| Unfit { message, help, field: "file" })?;
+        let (key, read) = self.key(&entry.file, folder, door).map_err(|(message, help)| UnfitFile {
+            message,
+            help,
+            field: "file",
+        })?;
         let fields = format!("table: {key}");
         Ok(Some(match read {
             None => Embedded { fields, ..Embedded::default() },

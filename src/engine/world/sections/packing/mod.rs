@@ -1,20 +1,20 @@
 //! `packings`: many bodies whose positions come from a table beside the scene.
 
 mod embed;
-mod table;
+mod packing_table;
 
 use std::sync::Arc;
 
 use bevy_app::App;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::names;
-use crate::scene::{Diagnostics, Kind, Obstacle, Outline, Section};
+use crate::scene::name_series;
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
 use crate::world::{material, sections};
 
 pub(in crate::world) use embed::EMBEDDING;
-pub use table::{PackedBody, PackingTable, Wrong};
+pub use packing_table::{PackedBody, PackingTable, TableMistake};
 
 /// The largest number of atoms of all entries together.
 pub const MOST_ATOMS: u64 = 1_000_000;
@@ -55,10 +55,6 @@ impl Section for PackingsSection {
     const NAME: &'static str = "packings";
     const EXAMPLE: &'static str = "packings: [(name: \"grain\", file: \"packings/grains.csv\", material: \"sand\")]";
 
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
-
     /// Declares the bodies' names and the places they take.
     fn declare(&self, outline: &mut Outline) {
         let mut atoms = 0;
@@ -70,7 +66,7 @@ impl Section for PackingsSection {
                 return;
             }
             let count = table.body_count() as u64;
-            outline.declare_series(Kind::BODY, &entry.name, count, &format!("[{index}].name"));
+            outline.declare_series(NameKind::BODY, &entry.name, count, &format!("[{index}].name"));
             for (center, radius) in table.discs() {
                 outline.occupy(Obstacle::Disc { center, radius });
             }
@@ -116,7 +112,7 @@ impl Section for PackingsSection {
 impl PackingEntry {
     /// The name of one of the bodies, counted from zero.
     pub fn body_name(&self, number: u64) -> String {
-        names::of_series(&self.name, number)
+        name_series::of_series(&self.name, number)
     }
 
     /// Its table after reading.

@@ -52,14 +52,15 @@ impl Settings {
 
 #[cfg(test)]
 mod tests {
-    use super::super::{Cost, Course, Deviation, Outcome, Setting, Settings};
+    use super::super::{Cost, Deviation, MethodChoice, Setting, SettingOutcome, Settings};
 
     fn settings() -> Settings {
         let measured = |method, tick, error, seconds| {
-            let outcome = Outcome::Measured(Deviation { error, apart: None });
-            Setting { outcome, seconds: Some(seconds), ..Setting::new(Course::of(method), tick) }
+            let outcome = SettingOutcome::Measured(Deviation { error, apart: None });
+            Setting { outcome, seconds: Some(seconds), ..Setting::new(MethodChoice::of(method), tick) }
         };
-        let failed = Setting { outcome: Outcome::Refused("no".to_owned()), ..Setting::new(Course::of("B"), 1.0) };
+        let failed =
+            Setting { outcome: SettingOutcome::Refused("no".to_owned()), ..Setting::new(MethodChoice::of("B"), 1.0) };
         let all = vec![
             measured("A", 0.1, 5e-3, 1e-4),
             measured("A", 0.01, 5e-5, 1e-3),

@@ -39,7 +39,7 @@ pub struct PackingTable {
 
 /// A mistake in a table: where, what, and what to do.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Wrong {
+pub struct TableMistake {
     /// Number of the line, from one.
     pub line: usize,
     /// The name of the column, unless it is the line as a whole.
@@ -65,8 +65,8 @@ pub struct PackedBody {
     pub properties: MassProperties,
 }
 
-fn wrong(line: usize, column: Option<&str>, why: impl Into<String>, help: impl Into<String>) -> Wrong {
-    Wrong { line, column: column.map(str::to_owned), why: why.into(), help: help.into() }
+fn wrong(line: usize, column: Option<&str>, why: impl Into<String>, help: impl Into<String>) -> TableMistake {
+    TableMistake { line, column: column.map(str::to_owned), why: why.into(), help: help.into() }
 }
 
 impl PackingTable {
@@ -74,7 +74,7 @@ impl PackingTable {
     ///
     /// # Errors
     /// The first mistake in it.
-    pub fn read(text: &str, most: u64) -> Result<Self, Wrong> {
+    pub fn read(text: &str, most: u64) -> Result<Self, TableMistake> {
         let lines = text.trim_start_matches('\u{feff}').lines().enumerate();
         let mut lines = lines.map(|(index, line)| (index + 1, line.trim()));
         let mut lines = lines.by_ref().filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
@@ -202,7 +202,7 @@ impl PackingTable {
     }
 
     /// All atoms of a body have its spin and angle, and move with it.
-    fn bodies_are_rigid(&self) -> Result<(), Wrong> {
+    fn bodies_are_rigid(&self) -> Result<(), TableMistake> {
         let fastest = self.rows.iter().map(|row| row.velocity.length()).fold(0.0, f64::max);
         for number in 0..self.body_count() {
             let rows = self.rows_of(number);
@@ -231,7 +231,7 @@ impl PackingTable {
 }
 
 /// The cells of a line, of which at least so many count: empty ones behind them are left out.
-fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<Vec<Cow<'_, str>>, Wrong> {
+fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<Vec<Cow<'_, str>>, TableMistake> {
     let Some(mut cells) = cells(text, separator) else {
         return Err(wrong(line, None, "has a quote that is not closed", "remove the quote; numbers need none"));
     };
@@ -240,7 +240,7 @@ fn cells_of(line: usize, text: &str, separator: char, wanted: usize) -> Result<V
 }
 
 /// The index of each column in [`COLUMNS`].
-fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<Vec<usize>, Wrong> {
+fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<Vec<usize>, TableMistake> {
     let mut columns = Vec::new();
     for (index, name) in cells_of(line, header, separator, 1)?.iter().map(AsRef::as_ref).enumerate() {
         if name.is_empty() {
@@ -266,7 +266,7 @@ fn columns(line: usize, header: &str, separator: char, needed: &str) -> Result<V
 }
 
 /// The numbers of a line, in the order of [`COLUMNS`]; zero if the table has no such column.
-fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Result<[f64; COLUMNS.len()], Wrong> {
+fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Result<[f64; COLUMNS.len()], TableMistake> {
     let mut values = [0.0; COLUMNS.len()];
     let cells = cells_of(line, text, separator, columns.len())?;
     if cells.len() != columns.len() {
@@ -299,7 +299,7 @@ fn numbers(line: usize, text: &str, separator: char, columns: &[usize]) -> Resul
 mod tests {
     use super::*;
 
-    fn read(text: &str) -> Result<PackingTable, Wrong> {
+    fn read(text: &str) -> Result<PackingTable, TableMistake> {
         PackingTable::read(text, 4)
     }
 

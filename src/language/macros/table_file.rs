@@ -4,9 +4,9 @@
 use std::borrow::Cow;
 use std::fmt::Write;
 
-use super::door::{Door, Wanted, Wrong};
+use super::door::{Door, FileMistake, FileRequest};
 use super::emit::{Context, WORK};
-use super::write::Buffer;
+use super::expansion::Buffer;
 use super::{Expander, Outcome};
 use crate::syntax::{Form, Id};
 use crate::{cells, count, drop_empty_ends, separator, suggest};
@@ -16,7 +16,7 @@ pub(super) const NAME: &str = "Csv";
 pub(super) const FIELDS: [&str; 3] = ["course", "target", "force"];
 const EXAMPLE: &str = "for example: course: Csv(\"drive.csv\")";
 const EXAMPLE_OF_COLUMNS: &str = "Csv(file: \"arm.csv\", time: \"t\", column: \"angle\")";
-const TABLE: Wanted = Wanted {
+const TABLE: FileRequest = FileRequest {
     most: 16 << 20,
     noun: "a table of numbers, one line each",
     smaller: "keep fewer points: between them the course is linear",
@@ -110,7 +110,7 @@ fn read_points(
     name: &str,
     columns: Option<&Columns>,
     words: &Words,
-) -> Result<Vec<(f64, f64)>, Wrong> {
+) -> Result<Vec<(f64, f64)>, FileMistake> {
     let Some(folder) = &context.file.source.folder else {
         let message = "this scene is in no file, so no table can be found from it".to_owned();
         return Err((message, format!("save it as a file, or write the points out: `{}`", words.written_out)));

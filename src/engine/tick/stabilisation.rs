@@ -6,10 +6,10 @@ use glam::DVec2;
 use super::blows::Jump;
 use super::context::Tick;
 use super::drifted::Drifted;
-use super::failure::{Trouble, Wrong};
-use super::stopwatch::Part;
+use super::failure::{FailureKind, Trouble};
+use super::stopwatch::TickPart;
 use super::{Ledger, Model, State};
-use crate::constraints::{DeadPoints, Gap, Kind, Row, Rows, Side, Standing};
+use crate::constraints::{DeadPoints, Gap, Row, RowKind, RowSide, Rows, Standing};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -39,7 +39,7 @@ impl FromOutside {
     /// Adds `amount` of a row's unit force on the bodies at their current poses. It does so if one side does not move
     /// by forces.
     fn add(&mut self, row: &Row, amount: f64, bodies: &Bodies) {
-        let driven = if row.kind == Kind::Velocity { row.rate } else { 0.0 };
+        let driven = if row.kind == RowKind::Velocity { row.rate } else { 0.0 };
         self.work += amount * (row.powers(bodies)[2] + driven);
         if row.is_inside(bodies) {
             return;
@@ -71,7 +71,7 @@ const FULL_TURN: f64 = 1e-12;
 
 /// Rows that hold places only.
 fn keep_places(rows: &mut Rows) {
-    rows.retain(|row| row.kind == Kind::Position);
+    rows.retain(|row| row.kind == RowKind::Position);
 }
 
 /// Adds the rows of joints in the present places and velocities of bodies.
@@ -93,7 +93,7 @@ impl State {
         jointed.clear();
         if rows.has_joints() {
             jointed.resize(entity.len(), false);
-            let sides = rows.all().iter().filter(|row| row.kind != Kind::Acceleration).flat_map(|row| row.sides);
+            let sides = rows.all().iter().filter(|row| row.kind != RowKind::Acceleration).flat_map(|row| row.sides);
             sides.flatten().for_each(|side| jointed[side.body] = true);
         }
     }
@@ -176,7 +176,7 @@ impl State {
         }
         if gap.failed {
             let body = sides().map(|side| side.body).next_back();
-            let wrong = Wrong::Joint { meters, dead: self.dead_points.is_near() };
+            let wrong = FailureKind::Joint { meters, dead: self.dead_points.is_near() };
             let tick = self.clock.ticks + 1;
             self.progress.trouble.get_or_insert(Trouble { body, entity: None, wrong, tick, time });
         }
@@ -228,7 +228,8 @@ impl State {
     pub(super) fn note_contradiction(&mut self, refused: Option<usize>, rows: &Rows, time: f64) {
         if let Some(row) = refused {
             let body = rows.all()[row].sides.iter().flatten().map(|side| side.body).next_back();
-            let trouble = Trouble { body, entity: None, wrong: Wrong::Contradiction, tick: self.clock.ticks + 1, time };
+            let trouble =
+                Trouble { body, entity: None, wrong: FailureKind::Contradiction, tick: self.clock.ticks + 1, time };
             self.progress.trouble.get_or_insert(trouble);
         }
     }
@@ -241,7 +242,7 @@ impl State {
 
     /// The same, in a jump of velocities.
     pub(super) fn project_with(&mut self, time: f64, jump: Option<Jump>) -> FromOutside {
-        self.turn_to(Part::Constraints);
+        self.turn_to(TickPart::Constraints);
         let mut rows = std::mem::take(&mut self.projected);
         for hold_places in [true, false] {
             rows.clear();
@@ -268,7 +269,7 @@ impl State {
             _ => self.hold_velocities(&mut rows, time),
         };
         self.projected = rows;
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
         outside
     }
 
@@ -281,7 +282,7 @@ impl State {
     ///
     /// # Errors
     /// The reason why that is impossible, and the body that shows it.
-    pub(crate) fn assemble(&mut self) -> Result<(), (Wrong, Option<usize>)> {
+    pub(crate) fn assemble(&mut self) -> Result<(), (FailureKind, Option<usize>)> {
         self.find_roles();
         let turned = self.bodies.angle.clone();
         self.project_with(0.0, Some(Jump::Stops(&[])));
@@ -319,7 +320,7 @@ impl State {
     /// beginning, and velocities follow. This is the constrained step of RATTLE (Andersen 1983; Hairer, Lubich, Wanner,
     /// section VII.1.4).
     pub(super) fn hold_after_drift(&mut self, elapsed: f64, time: f64) {
-        self.turn_to(Part::Constraints);
+        self.turn_to(TickPart::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
         if !rows.all_in_place() {
             keep_places(&mut rows);
@@ -328,14 +329,14 @@ impl State {
         self.note_levers(&rows, elapsed);
         self.hold_drifted(&mut rows, (elapsed, time), Standing::Stays).book(&mut self.ledger);
         self.rows = rows;
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
     }
 
     /// Bodies move for `length` seconds from their current state. They are brought back onto joints along the
     /// directions in which these pushed, and velocities follow. `settled`: velocities are brought onto joints as well.
     /// Returns the external impulse.
     pub(super) fn slide(&mut self, time: f64, length: f64, settled: bool) -> FromOutside {
-        self.turn_to(Part::Constraints);
+        self.turn_to(TickPart::Constraints);
         let mut rows = std::mem::take(&mut self.projected);
         self.find_places(&mut rows, time);
         self.note_levers(&rows, 0.0);
@@ -346,7 +347,7 @@ impl State {
             outside.include(self.hold_velocities(&mut rows, time + length));
         }
         self.projected = rows;
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
         outside
     }
 
@@ -381,7 +382,7 @@ impl State {
                 }
             }
             if !row.is_inside(bodies) {
-                let force = |side: &Side| if bodies.dynamic[side.body] { side.force } else { DVec2::ZERO };
+                let force = |side: &RowSide| if bodies.dynamic[side.body] { side.force } else { DVec2::ZERO };
                 let force = row.sides.iter().flatten().map(force).fold(DVec2::ZERO, |sum, force| sum + force);
                 outside.include(FromOutside { impulse: force * impulse, angular: about_origin * impulse, work: 0.0 });
             }
@@ -391,7 +392,7 @@ impl State {
 
     /// At the end of a tick: velocities are brought back onto the joints.
     pub(super) fn hold_at_end(&mut self) {
-        self.turn_to(Part::Constraints);
+        self.turn_to(TickPart::Constraints);
         let mut rows = std::mem::take(&mut self.rows);
         self.look_for_dead_points(&mut rows, self.evaluation.time);
         let time = self.evaluation.time;
@@ -411,7 +412,7 @@ impl State {
         self.ledger.book_work(outside.work);
         rows.still(&mut self.bodies, self.clock.dt);
         self.rows = rows;
-        self.turn_to(Part::Integrate);
+        self.turn_to(TickPart::Integrate);
     }
 }
 
@@ -421,7 +422,7 @@ fn about_origin(row: &Row, bodies: &Bodies, elapsed: f64) -> f64 {
     if row.is_inside(bodies) {
         return 0.0;
     }
-    let of = |side: &Side| {
+    let of = |side: &RowSide| {
         let was = bodies.position[side.body] - bodies.velocity[side.body] * elapsed;
         was.perp_dot(side.force) + side.torque
     };

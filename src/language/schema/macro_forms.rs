@@ -6,7 +6,7 @@ use std::collections::BTreeMap;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde_json::Value;
 
-use crate::units::{Angle, Length, Position};
+use crate::units::{Angle, Length, LengthPair};
 use crate::values::WholeNumber;
 
 /// One correct use of each field of [`Made`], in their order.
@@ -107,9 +107,9 @@ pub(super) struct Repeat {
 #[expect(dead_code, reason = "described, never made")]
 struct Line {
     /// The place of the first.
-    from: Position,
+    from: LengthPair,
     /// The place of the last.
-    to: Position,
+    to: LengthPair,
 }
 
 /// The beginning of a grid, and its spacing.
@@ -118,9 +118,9 @@ struct Line {
 #[expect(dead_code, reason = "described, never made")]
 struct Grid {
     /// The place of the first.
-    from: Position,
+    from: LengthPair,
     /// The steps from one column to the next, and from one row to the next.
-    step: Position,
+    step: LengthPair,
 }
 
 /// A circle.
@@ -129,7 +129,7 @@ struct Grid {
 #[expect(dead_code, reason = "described, never made")]
 struct Circle {
     /// Its middle.
-    center: Position,
+    center: LengthPair,
     /// Its radius.
     radius: Length,
     /// The angle of the first item, counter-clockwise from the right. Default: 0.

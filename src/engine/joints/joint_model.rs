@@ -7,14 +7,14 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::KnownJoint;
-use super::ends::{Ends, Pair};
-use super::law::{Held, Law};
-use super::parts::{Asked, Parts};
+use super::ends::{EndPair, JointEnds};
+use super::law::{Held, JointLaw};
+use super::parts::{Asked, JointParts};
 use super::soft::Soft;
-use crate::constraints::{Kind as Holds, Rows};
+use crate::constraints::{RowKind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
-use crate::scene::{Diagnostics, Entry, Kind, Outline, SceneError};
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneError};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, anchor};
 use jostle_language::numbers::number;
@@ -40,13 +40,13 @@ pub(super) struct Setup {
     pub assemble: bool,
     pub absent: Absent,
     pub asked: Asked,
-    pub law: Arc<dyn Law>,
+    pub law: Arc<dyn JointLaw>,
 }
 
 /// Declares the name of a joint.
 pub(super) fn declare(name: Option<&str>, outline: &mut Outline) {
     if let Some(name) = name {
-        outline.declare(Kind::JOINT, name, "name");
+        outline.declare(NameKind::JOINT, name, "name");
     }
 }
 
@@ -54,7 +54,7 @@ pub(super) fn declare(name: Option<&str>, outline: &mut Outline) {
 pub(super) fn check_ends(a: &Partner, b: &Partner, outline: &Outline, report: &mut Diagnostics) {
     for (partner, field) in [(a, "a"), (b, "b")] {
         if let Partner::Body(name) = partner {
-            outline.require(Kind::BODY, name, field, report);
+            outline.require(NameKind::BODY, name, field, report);
         }
     }
     if a == b {
@@ -73,7 +73,7 @@ pub(super) fn install<E: Entry>(app: &mut App, outline: &Outline, setups: impl I
     let mentions = outline.entries(E::SECTION).iter().filter(|mention| mention.name == E::NAME);
     for (setup, mention) in setups.zip(mentions) {
         let key = |partner: &Partner| match partner {
-            Partner::Body(name) => outline.position(Kind::BODY, name).map(|index| index as u64),
+            Partner::Body(name) => outline.position(NameKind::BODY, name).map(|index| index as u64),
             Partner::World => None,
         };
         let keys = [key(&setup.partners[0]), key(&setup.partners[1])];
@@ -82,9 +82,9 @@ pub(super) fn install<E: Entry>(app: &mut App, outline: &Outline, setups: impl I
         }
         app.add_model(Joint {
             name: setup.name.clone().unwrap_or_else(|| mention.path.clone()),
-            ends: Ends::new(keys, setup.anchors.map(Option::unwrap_or_default)),
+            ends: JointEnds::new(keys, setup.anchors.map(Option::unwrap_or_default)),
             law: setup.law.clone(),
-            parts: Parts::default(),
+            parts: JointParts::default(),
             soft: None,
             setup,
             path: mention.path.clone(),
@@ -101,13 +101,13 @@ pub struct Joint {
     /// Its name, or its path in the scene, such as `joints[0]`.
     pub name: String,
     /// Its ends.
-    pub ends: Ends,
+    pub ends: JointEnds,
     /// Its law.
-    pub law: Arc<dyn Law>,
+    pub law: Arc<dyn JointLaw>,
     /// Force in N and torque about the anchor in N m on body B in the last evaluation.
     pub reaction: (DVec2, f64),
     /// Limits, friction, breaking.
-    pub parts: Parts,
+    pub parts: JointParts,
     /// Its springs, if it is soft.
     pub soft: Option<Soft>,
     setup: Setup,
@@ -121,7 +121,7 @@ pub struct Joint {
 
 impl Joint {
     /// Both ends in the present state; `None` if a body is gone.
-    pub fn pair(&self, bodies: &Bodies) -> Option<Pair> {
+    pub fn pair(&self, bodies: &Bodies) -> Option<EndPair> {
         self.ends.pair(bodies)
     }
 
@@ -140,7 +140,7 @@ impl Joint {
     /// Its drift: the greatest gap in m. Angles count at the farthest point of a body.
     pub fn drift(&self, bodies: &Bodies) -> f64 {
         let Some(pair) = self.pair(bodies) else { return f64::NAN };
-        let extent = |end: &super::ends::End| end.body.map_or(0.0, |body| bodies.extent(body));
+        let extent = |end: &super::ends::JointEnd| end.body.map_or(0.0, |body| bodies.extent(body));
         let reach = extent(&pair.a).max(extent(&pair.b));
         let mut worst = 0.0_f64;
         self.law.hold(&pair, &mut |held| {
@@ -192,7 +192,7 @@ impl Joint {
     }
 
     /// Reports conditions that the ends violate at the start.
-    fn look_at_start(&self, world: &mut World, pair: &Pair) {
+    fn look_at_start(&self, world: &mut World, pair: &EndPair) {
         let bodies = &world.resource::<State>().bodies;
         let moves = [pair.a.body, pair.b.body].into_iter().flatten().any(|body| bodies.dynamic[body]);
         if !moves {
@@ -265,7 +265,8 @@ impl Model for Joint {
         self.ends.refresh(&world.resource::<State>().bodies);
         let Some(pair) = self.ends.pair(&world.resource::<State>().bodies) else { return };
         self.law = self.setup.law.begun(&pair);
-        self.parts = Parts::new(&Asked { limits: self.setup.asked.limits.or(self.law.limits()), ..self.setup.asked });
+        self.parts =
+            JointParts::new(&Asked { limits: self.setup.asked.limits.or(self.law.limits()), ..self.setup.asked });
         self.parts.start(&*self.law, &pair);
         let bodies = &world.resource::<State>().bodies;
         self.soft = self.setup.asked.softness.map(|softness| Soft::new(softness, &*self.law, &pair, bodies));
@@ -382,7 +383,7 @@ impl Model for Joint {
         Memory::of(&(self.reaction, &self.parts, self.soft.as_ref().map(|soft| soft.power)))
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let power: Option<f64>;
         (self.reaction, self.parts, power) = recall(bytes)?;
         if let (Some(soft), Some(power)) = (&mut self.soft, power) {

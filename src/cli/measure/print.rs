@@ -8,8 +8,8 @@ use crate::cli::columns::{aligned, quoted};
 use crate::cli::say::number;
 use crate::output::csv;
 use crate::report::measure::{Measured, NORM, NoReference};
-use crate::report::work_precision::{Advice, Cost, Course, Deviation, Outcome, Setting};
-use crate::tick::Wrong;
+use crate::report::work_precision::{Advice, Cost, Deviation, MethodChoice, Setting, SettingOutcome};
+use crate::tick::FailureKind;
 
 /// Three digits are enough for a measurement.
 fn rounded(value: f64) -> String {
@@ -27,46 +27,54 @@ fn error_in_words(measured: &Measured, setting: &Setting) -> String {
 
 /// Its distance from the reference, in m and m/s.
 fn apart(setting: &Setting) -> Option<(f64, f64)> {
-    if let Outcome::Measured(Deviation { apart, .. }) = setting.outcome { apart } else { None }
+    if let SettingOutcome::Measured(Deviation { apart, .. }) = setting.outcome { apart } else { None }
 }
 
 /// Its outcome, in a word.
 fn word(setting: &Setting) -> &'static str {
     match setting.outcome {
-        Outcome::Measured(_) => "measured",
-        Outcome::Unknown => "unknown",
-        Outcome::Failed(_) => "failed",
-        Outcome::Refused(_) => "refused",
-        Outcome::Stopped(_) => "stopped",
+        SettingOutcome::Measured(_) => "measured",
+        SettingOutcome::Unknown => "unknown",
+        SettingOutcome::Failed(_) => "failed",
+        SettingOutcome::Refused(_) => "refused",
+        SettingOutcome::Stopped(_) => "stopped",
     }
 }
 
 /// The notes beside the numbers.
 fn note(setting: &Setting) -> String {
     let first = match &setting.outcome {
-        Outcome::Measured(_) => None,
-        Outcome::Unknown => Some("reaches its end, its error is unknown".to_owned()),
-        Outcome::Failed(failure) => {
+        SettingOutcome::Measured(_) => None,
+        SettingOutcome::Unknown => Some("reaches its end, its error is unknown".to_owned()),
+        SettingOutcome::Failed(failure) => {
             let what = match failure.wrong {
-                Wrong::Crossed(_) => format!("`{}` passes through the wall `{}`", failure.body, failure.other),
-                Wrong::Behind(_) => format!("`{}` comes through `{}` from behind", failure.body, failure.other),
-                Wrong::Sunk(_) => format!("corners sink too deep, between `{}` and `{}`", failure.body, failure.other),
-                Wrong::NotFinite(quantity) => {
+                FailureKind::Crossed(_) => format!("`{}` passes through the wall `{}`", failure.body, failure.other),
+                FailureKind::Behind(_) => format!("`{}` comes through `{}` from behind", failure.body, failure.other),
+                FailureKind::Sunk(_) => {
+                    format!("corners sink too deep, between `{}` and `{}`", failure.body, failure.other)
+                }
+                FailureKind::NotFinite(quantity) => {
                     format!("the {quantity} of `{}` is infinite or NaN", failure.body)
                 }
-                Wrong::Steps(step) => format!("steps have become as short as {step:.1e} s near `{}`", failure.body),
-                Wrong::Contradiction => format!("motors and joints ask for different motions of `{}`", failure.body),
-                Wrong::Joint { meters, .. } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
-                Wrong::Energy(_) => "energy comes out of nowhere".to_owned(),
-                Wrong::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),
-                Wrong::Torn(list) => format!("the packed list `{list}` of bodies does not fit the others"),
-                Wrong::Lost(component) => format!("`{}` has lost its component `{component}`", failure.body),
-                Wrong::Gone(name) => format!("{name} is gone"),
+                FailureKind::Steps(step) => {
+                    format!("steps have become as short as {step:.1e} s near `{}`", failure.body)
+                }
+                FailureKind::Contradiction => {
+                    format!("motors and joints ask for different motions of `{}`", failure.body)
+                }
+                FailureKind::Joint { meters, .. } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
+                FailureKind::Energy(_) => "energy comes out of nowhere".to_owned(),
+                FailureKind::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),
+                FailureKind::Torn(list) => format!("the packed list `{list}` of bodies does not fit the others"),
+                FailureKind::Lost(component) => format!("`{}` has lost its component `{component}`", failure.body),
+                FailureKind::Gone(name) => format!("{name} is gone"),
             };
             Some(format!("fails at t = {} s: {what}", number(failure.time)))
         }
-        Outcome::Refused(why) => Some(format!("refused: {why}")),
-        Outcome::Stopped(share) => Some(format!("stopped at {:.0} % of the run: the budget is used up", 100.0 * share)),
+        SettingOutcome::Refused(why) => Some(format!("refused: {why}")),
+        SettingOutcome::Stopped(share) => {
+            Some(format!("stopped at {:.0} % of the run: the budget is used up", 100.0 * share))
+        }
     };
     first.iter().chain(&setting.notes).map(String::as_str).collect::<Vec<_>>().join("; ")
 }
@@ -278,7 +286,7 @@ pub(super) fn json(scene: &str, measured: &Measured, run: &str) -> Value {
         Err(NoReference::Failed(failure)) => json!({ "missing": failure.to_string() }),
         Err(_) => json!({ "missing": "there is none" }),
     };
-    let end = |(course, why): &(Course, String)| json!({ "method": course.method, "why": why });
+    let end = |(course, why): &(MethodChoice, String)| json!({ "method": course.method, "why": why });
     json!({
         "scene": scene,
         "time": measured.duration,

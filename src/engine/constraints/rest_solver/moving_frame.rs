@@ -9,7 +9,7 @@ use super::Mover;
 
 /// Motion of the frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Frame {
+pub struct MovingFrame {
     /// A point of it, in metres.
     pub origin: DVec2,
     /// Velocity of that point in m/s.
@@ -18,7 +18,7 @@ pub struct Frame {
     pub spin: f64,
 }
 
-impl Frame {
+impl MovingFrame {
     fn at(&self, position: DVec2) -> DVec2 {
         self.velocity + (position - self.origin).perp() * self.spin
     }

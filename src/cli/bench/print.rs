@@ -6,8 +6,8 @@ use serde_json::{Value, json};
 
 use crate::cli::columns::aligned;
 use crate::cli::say::number;
-use crate::report::bench::{Measured, Spread};
-use crate::tick::stopwatch::Part;
+use crate::report::bench::{BenchResult, Spread};
+use crate::tick::stopwatch::TickPart;
 
 /// A stage below this share of a tick is omitted.
 const SMALLEST_SHARE: f64 = 0.005;
@@ -18,12 +18,12 @@ const FEWEST_ATOMS: usize = 1000;
 /// The measurement of a scene.
 pub(super) struct Row {
     name: String,
-    measured: Measured,
+    measured: BenchResult,
     bytes: Option<u64>,
 }
 
 impl Row {
-    pub(super) fn of(scene: &str, measured: Measured, bytes: Option<u64>) -> Self {
+    pub(super) fn of(scene: &str, measured: BenchResult, bytes: Option<u64>) -> Self {
         let name = scene.rsplit('/').next().unwrap_or(scene);
         Self { name: name.strip_suffix(".ron").unwrap_or(name).to_owned(), measured, bytes }
     }
@@ -68,7 +68,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             "bytes/atom",
         ],
         rows.iter().map(|row| {
-            let Measured { bodies, atoms, near, touching, us_per_tick, ns_per_atom_tick, plain, .. } = &row.measured;
+            let BenchResult { bodies, atoms, near, touching, us_per_tick, ns_per_atom_tick, plain, .. } = &row.measured;
             let plain = plain.as_ref().ok();
             vec![
                 row.name.clone(),
@@ -90,7 +90,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     for row in rows {
         let told = row.measured.stages.iter().filter(|(_, share)| *share >= SMALLEST_SHARE);
         // The search for rest has a separate line, because it may take more than all the rest.
-        let (search, others): (Vec<_>, Vec<_>) = told.partition(|(name, _)| *name == Part::Rest.name());
+        let (search, others): (Vec<_>, Vec<_>) = told.partition(|(name, _)| *name == TickPart::Rest.name());
         for part in [others, search].into_iter().filter(|part| !part.is_empty()) {
             let shares: Vec<String> = part.iter().map(|(name, share)| format!("{name} {}", percent(*share))).collect();
             let _ = writeln!(text, "{:<width$}  {}", row.name, shares.join(", "));
@@ -100,7 +100,7 @@ pub(super) fn table(rows: &[Row]) -> String {
     text.push_str(&aligned(
         &["scene", "ticks", "tick in s", "energy residual in J", "share of the energy", "state hash"],
         rows.iter().map(|row| {
-            let Measured { ticks_in_all, tick, residual, residual_share, hash, .. } = &row.measured;
+            let BenchResult { ticks_in_all, tick, residual, residual_share, hash, .. } = &row.measured;
             let share = format!("{residual_share:.0e}");
             vec![row.name.clone(), ticks_in_all.to_string(), number(*tick), rounded(*residual), share, hash.clone()]
         }),
@@ -114,7 +114,7 @@ pub(super) fn table(rows: &[Row]) -> String {
 }
 
 /// The measurement of a scene, for programs.
-pub(super) fn json(scene: &str, measured: &Measured, bytes: Option<u64>) -> Value {
+pub(super) fn json(scene: &str, measured: &BenchResult, bytes: Option<u64>) -> Value {
     let spread = |spread: &Spread| json!({ "median": spread.median, "min": spread.least, "max": spread.most });
     let plain = match &measured.plain {
         Ok(plain) => json!({

@@ -12,7 +12,7 @@ use super::rolling::{self, RollingContacts};
 use super::{
     Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, search_schedule, watched,
 };
-use crate::tick::snapshot::{Memory, Unfit, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Dependence, Energies, EvaluationMode, Events, Foreseen, Holder, Model, Notes, Objection, State, SteadySpring,
@@ -61,7 +61,7 @@ impl<N: NormalForce> Model for Contacts<N> {
         Memory::of(&self.own)
     }
 
-    fn load(&mut self, bytes: &[u8]) -> Result<(), Unfit> {
+    fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let PenaltyState { contacts, rolling } = recall(bytes)?;
         self.own.rolling = rolling;
         self.own.contacts.take_over(contacts);

@@ -2,7 +2,7 @@
 
 use bevy_app::App;
 use bevy_ecs::resource::Resource;
-use schemars::{JsonSchema, Schema, SchemaGenerator};
+use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Scalar, Time};
@@ -65,10 +65,6 @@ impl ClockSection {
 impl Section for ClockSection {
     const NAME: &'static str = "clock";
     const EXAMPLE: &'static str = "clock: (duration: 20, tick: \"1 ms\", method: VelocityVerlet)";
-
-    fn schema(generator: &mut SchemaGenerator) -> Option<Schema> {
-        Some(generator.subschema_for::<Self>())
-    }
 
     /// Reports times that are not above zero and a tick longer than the run. Reports unknown methods and methods that
     /// are not available yet.

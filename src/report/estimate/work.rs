@@ -1,0 +1,110 @@
+//! The work of an estimate, as a count that does not depend on the computer or on its load.
+//!
+//! The unit is an evaluation of the forces of a world without atoms: about half a microsecond.
+
+use std::time::{Duration, Instant};
+
+use jostle_engine::Simulation;
+use jostle_engine::tick::{Failure, State};
+
+/// The share of the run's work that an estimate may take by default.
+pub(super) const SHARE: f64 = 0.03;
+/// ... or this much, if that is more. It is about a tenth of a second...
+const FREE: f64 = 2e5;
+/// ... or four times as much, if that suffices for the whole run.
+const WHOLE: f64 = 8e5;
+
+/// The work of an evaluation for each atom, each row of the constraints, and each pair of neighbours.
+const PER_ATOM: f64 = 0.04;
+const PER_ROW: f64 = 0.5;
+const PER_PAIR: f64 = 0.1;
+/// The same for each pair that touches: the search for rest takes most of it.
+const PER_CONTACT: f64 = 1.0;
+/// The work of reading a scene, for each atom.
+const READING: f64 = 8.0;
+
+/// A finer run may take so many times the expected evaluations.
+const EXCESS: f64 = 4.0;
+/// A finer run may take so many seconds, and this share of the time of the first run. They bound models that count no work.
+const SECONDS: f64 = 5.0;
+const SHARE_OF_TIME: f64 = 0.5;
+/// Parts of a run between which it is seen whether it takes too long.
+const CHUNKS: u64 = 64;
+
+/// Evaluations of forces so far.
+fn evaluations(simulation: &Simulation) -> f64 {
+    simulation.resource::<State>().evaluation().count as f64
+}
+
+/// The work of an evaluation of a finished run, from the neighbours, contacts and rows at its end.
+fn per_evaluation(simulation: &Simulation) -> f64 {
+    let (state, bodies) = (simulation.resource::<State>(), simulation.bodies());
+    let (near, touching) = state.pairs().map_or((0, 0), |pairs| pairs.count(bodies));
+    let (atoms, rows) = (bodies.atom_count() as f64, state.rows().len() as f64);
+    1.0 + PER_ATOM * atoms + PER_ROW * rows + PER_PAIR * near as f64 + PER_CONTACT * touching as f64
+}
+
+/// The part of a run that finer runs can repeat for little work, if they take `times` its work.
+pub(super) fn affordable(simulation: &Simulation, times: f64) -> f64 {
+    let work = evaluations(simulation) * per_evaluation(simulation);
+    part(work, READING * simulation.bodies().atom_count() as f64, times)
+}
+
+/// The same for a run of so much work.
+fn part(work: f64, reading: f64, times: f64) -> f64 {
+    let whole = times * work;
+    let least = if whole + reading <= WHOLE { WHOLE } else { FREE };
+    ((least.max(SHARE * work) - reading) / whole).clamp(0.0, 1.0)
+}
+
+/// How long a finer run may take.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Patience {
+    evaluations: f64,
+    time: Duration,
+}
+
+impl Patience {
+    /// For a run that repeats a part of the first, with steps shorter by the factor `finer`.
+    pub fn of(first: &Simulation, part: f64, finer: f64) -> Self {
+        let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
+        let evaluations = EXCESS * (finer * part * evaluations(first) + FREE / per_evaluation(first));
+        Self { evaluations, time: Duration::from_secs_f64(seconds) }
+    }
+}
+
+/// A finer run took too long.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct TooLong;
+
+/// Runs until the end of a tick, or until a failure, which is returned.
+pub(super) fn run_to_tick(
+    simulation: &mut Simulation,
+    until: u64,
+    patience: Option<Patience>,
+) -> Result<Option<Failure>, TooLong> {
+    let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
+    let mut failure = None;
+    while failure.is_none() && simulation.clock().ticks < until {
+        let is_over = |most: Patience| evaluations(simulation) > most.evaluations || begin.elapsed() > most.time;
+        if patience.is_some_and(is_over) {
+            return Err(TooLong);
+        }
+        failure = simulation.run_to_tick((simulation.clock().ticks + chunk).min(until)).err();
+    }
+    Ok(failure)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn short_runs_are_repeated_whole_and_long_ones_in_part() {
+        assert_eq!(part(0.3 * WHOLE, 0.0, 3.0), 1.0);
+        assert_eq!(part(WHOLE, 0.0, 3.0), FREE / (3.0 * WHOLE));
+        let long = 1e3 * FREE;
+        assert_eq!(part(long, 0.0, 3.0), SHARE / 3.0);
+        assert_eq!(part(WHOLE, 2.0 * FREE, 3.0), 0.0, "reading alone is too dear");
+    }
+}
