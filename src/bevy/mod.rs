@@ -84,8 +84,8 @@ impl RunStatus {
             Self::Refused(errors) => Some(errors.to_string()),
             Self::Failed(failure) => Some(failure.to_string()),
             Self::OutOfStep { fixed, tick } => Some(format!(
-                "the app's fixed timestep is {:?} s, the scene's tick {tick:?} s: run as many ticks as the app's time asks for \
-                 (`Pace::SameClock`), give the app the scene's tick (`jostle::bevy::timestep`), or drive the scene with `Pace::Free`",
+                "the app's fixed timestep is {:?} s, and the scene's tick is {tick:?} s. With `Pace::SameClock`, the scene \
+                 runs as many ticks as the app's time asks for. Or give the app the scene's tick (`jostle::bevy::timestep`), or drive the scene with `Pace::Free`",
                 fixed.as_secs_f64()
             )),
         }
@@ -111,7 +111,7 @@ pub struct PhysicsPlugin {
     pub overrides: Overrides,
     /// Registers further forces, sensors ... before the scene is read. Default: none.
     pub plugins: fn(&mut App),
-    /// How many ticks a timestep of the app has.
+    /// The number of ticks in a timestep of the app.
     pub pace: Pace,
 }
 
@@ -127,7 +127,7 @@ impl PhysicsPlugin {
     /// All mistakes of the scene, with their places; overrides that cannot be; a second scene for one app.
     pub fn install(&self, app: &mut App) -> Result<(), SceneErrors> {
         if app.world().contains_resource::<RunStatus>() {
-            let error = SceneError::new("", "this app has been given a scene already, and takes only one");
+            let error = SceneError::new("", "this app has a scene already, and takes only one");
             return Err(SceneErrors::new(self.source.clone(), vec![error], Vec::new()));
         }
         app.insert_resource(RunStatus::Running);

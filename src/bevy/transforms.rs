@@ -13,7 +13,7 @@ use crate::world::{Body, Position, Rotation};
 /// the rotation about z. The app sets z and the scale.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SyncTransforms {
-    /// How long a metre is in the app, such as 100 for a hundred pixels.
+    /// The length of a metre in the app, such as 100 for a hundred pixels.
     pub units_per_meter: f64,
 }
 

@@ -84,8 +84,8 @@ impl FilmRequest<'_> {
         let end = ahead.ticks() as f64 * ahead.clock().dt;
         let (from, to) = (ahead.film().begin(), ahead.film().end().min(end));
         Sampler::new(ahead, plots, from, to).map_err(|Missing { plot, channel }| {
-            let help = "such things have no such quantity; `position`, `velocity`, `angle` and `spin` are those of bodies, \
-                        `force` and `contacts` of walls too";
+            let help = "`position`, `velocity`, `angle` and `spin` are quantities of bodies, `force` and `contacts` also of \
+            walls";
             let message = format!("there is no channel {channel:?}");
             self.request.refuse(Exit::SceneWrong, &format!("plots[{plot}]"), &message, help)
         })

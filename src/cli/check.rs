@@ -29,7 +29,7 @@ pub(super) struct Check {
     overrides: OverrideFlags,
     #[command(flatten)]
     strict: StrictFlag,
-    /// Messages only if something is wrong
+    /// Show messages only if something is wrong
     #[arg(long)]
     quiet: bool,
     /// Print for each scene one line of JSON on standard output: its mistakes, or with --run its result
@@ -44,7 +44,7 @@ const EXAMPLES: &str = "\
 Examples:
   jostle check my.ron                 every mistake with its line and a remedy
   jostle check --run scenes/*.ron     does each scene do what it says under `expect`?
-  jostle check --quiet scenes/*.ron   the exit code says it, and mistakes are told";
+  jostle check --quiet scenes/*.ron   print mistakes only; the exit code is 0 if there are none";
 
 impl Check {
     pub(super) fn execute(self) -> Exit {
@@ -102,7 +102,7 @@ impl Check {
         let exit = result::tell(request, &ran, Detail::of(self.json, true));
         if exit == Exit::Good && !self.json && !self.quiet {
             let holding = match simulation.outcomes().len() {
-                0 => "nothing is expected".to_owned(),
+                0 => "it has no expectations".to_owned(),
                 many => count(many, "expectation holds", "expectations hold"),
             };
             return print_line(&format!("{}: good; {}; {holding}", request.name, contents(&simulation)));

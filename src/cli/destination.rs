@@ -51,7 +51,7 @@ pub(super) fn places(scenes: &[Request], wish: &Wish) -> Result<Vec<Place>, Exit
                 format!("`{other}` is named twice")
             } else {
                 format!(
-                    "`{other}` and `{}` would both be written to `{path}`; render them with two commands and an `-o` each",
+                    "`{other}` and `{}` would both go to `{path}`. Render them with two commands and an `-o` each",
                     scene.name
                 )
             }));
@@ -95,8 +95,8 @@ impl Wish<'_> {
         };
         let target = OutputTarget::new(path).map_err(|error| match error {
             OutputError::UnknownFormat { path, .. } => format!(
-                "the ending of `{}` names no format: .gif, .apng, .mp4 and .webm are films, .png is one picture (with --at, \
-                 --strip or --sheet), / a directory of pictures, .rgba or the name - (standard output) raw pictures",
+                "the ending of `{}` names no format. .gif, .apng, .mp4 and .webm are films. .png is one picture, with --at, \
+                 --strip or --sheet. A / at the end means a directory of pictures. .rgba or the name - (standard output) means raw pictures",
                 path.display()
             ),
             error => error.to_string(),
@@ -133,8 +133,7 @@ impl Wish<'_> {
         }
         if self.still.is_none() && picture {
             return Err(
-                "a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3, or write a film to a .gif \
-                        or .apng"
+                "a .png holds one picture: add --at T, --strip T,T,T or --sheet 4x3. Or write a film to a .gif or .apng"
                     .to_owned(),
             );
         }
@@ -162,7 +161,7 @@ pub(super) fn takes_no_file(path: &Path) -> Option<String> {
 fn is_scene(path: &Path) -> Option<String> {
     let ends = |path: &Path| path.extension().is_some_and(|ending| ending.eq_ignore_ascii_case("ron"));
     let scene = ends(path) || std::fs::canonicalize(path).is_ok_and(|real| ends(&real));
-    scene.then(|| format!("`{}` has the name of a scene: this would not be one; take another ending", path.display()))
+    scene.then(|| format!("`{}` has the name of a scene, but the output is none: take another ending", path.display()))
 }
 
 /// The objection to the name of a device or a pipe.

@@ -12,20 +12,20 @@ use crate::report::estimate::{self, Effort, EstimateRequest, Repeated};
 use crate::scene::Source;
 use crate::simulation::{Overrides, Simulation};
 
-/// What is to be estimated of a run.
+/// The errors of a run that a user wants to know.
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct EstimateFlags {
-    /// Take the time to estimate the error of the whole run: it is made again with finer steps, two to four times. Otherwise
-    /// as much of that as takes 3 % of the run, or about half a second
+    /// Estimate the error of the whole run: make it again with finer steps, two to four times. Without this flag, the
+    /// estimate takes at most half a second or a thirtieth of the run. It may then cover only the beginning
     #[arg(long, conflicts_with = "no_estimate")]
     estimate: bool,
     /// Do not estimate the error of the run
     #[arg(long)]
     no_estimate: bool,
-    /// Estimate the error of finite digits too: three more runs, with wrong last bits
+    /// Also estimate the error of finite digits, by three more runs with wrong last bits
     #[arg(long)]
     rounding: bool,
-    /// Estimate too what hard contacts would do otherwise: one more run, with four times the stiffness and half the tick
+    /// Also estimate the effect of soft contacts, by one more run with four times the stiffness and half the tick
     #[arg(long)]
     model: bool,
 }

@@ -156,7 +156,7 @@ impl FilmRequest<'_> {
             let (width, height) = size;
             say(&format!(
                 "raw pictures: {width} x {height} pixels, {frames_per_second} frames per second, 4 bytes each pixel (red, \
-                 green, blue, 255); to watch them: ffplay -f rawvideo -pixel_format rgba -video_size {width}x{height} \
+                 green, blue, 255). To watch them: ffplay -f rawvideo -pixel_format rgba -video_size {width}x{height} \
                  -framerate {frames_per_second} FILE"
             ));
         }
@@ -184,8 +184,7 @@ impl FilmRequest<'_> {
 
     fn refuse_spool(&self, error: &io::Error) -> Exit {
         self.request.usage(&format!(
-            "the frames could not be kept aside in `{}`: {error}; free some space there, or set TMPDIR to another \
-             directory",
+            "the program could not keep the frames in `{}`: {error}. Free some space there, or set TMPDIR to another directory",
             Spool::folder().display()
         ))
     }
@@ -281,7 +280,7 @@ fn film_step(simulation: &Simulation, frames_per_second: f64) -> f64 {
     simulation.film().speed() / frames_per_second
 }
 
-/// How many threads may draw pictures of this size without taking all of the memory.
+/// The number of threads that may draw pictures of this size without taking all of the memory.
 fn affordable_threads((width, height): (u32, u32)) -> usize {
     (MEMORY / (width as usize * height as usize * BYTES_PER_PIXEL)).max(1)
 }

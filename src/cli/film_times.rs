@@ -64,8 +64,7 @@ impl FilmRequest<'_> {
             match (at, &freeze.touch) {
                 (Some(at), _) => schedule = schedule.standing_at(at, frames),
                 (None, Some((a, b))) => say(&format!(
-                    "note: film.freeze[{index}]: `{a}` and `{b}` do not begin to touch in the film: it does not stand \
-                     still there"
+                    "note: film.freeze[{index}]: `{a}` and `{b}` do not begin to touch in the film, so it does not stop there"
                 )),
                 (None, None) => (),
             }
@@ -180,7 +179,7 @@ fn stands_too_late(simulation: &Simulation) -> Option<Misfit> {
         let (at, end) = (number(at), number(end(simulation)));
         Misfit {
             path: format!("film.freeze[{index}].at"),
-            message: format!("the film is to stand still at {at} s, but the run ends at {end} s"),
+            message: format!("the film is to stop at {at} s, but the run ends at {end} s"),
             help: "choose an earlier moment, or let the run last longer",
         }
     })

@@ -24,7 +24,7 @@ const MOST_FRAMES_IN_A_PICTURE: u32 = 400;
 /// The influence of a verdict on the exit code.
 #[derive(Args, Clone, Copy, Debug)]
 pub(super) struct StrictFlag {
-    /// Exit with 3 too if the verdict on the error card is `Do not trust it`
+    /// Also exit with 3 if the verdict on the error card is `Do not trust it`
     #[arg(long)]
     pub strict: bool,
 }
@@ -41,14 +41,14 @@ pub(super) struct OverrideFlags {
     /// Integration method, instead of the scene's
     #[arg(long, value_name = "NAME", value_parser = methods())]
     pub method: Option<String>,
-    /// Error allowed, instead of a tick: a share such as 1e-6 of how far and how fast bodies go
+    /// Allow this error, instead of setting a tick. It is a share such as 1e-6 of how far and how fast bodies go
     #[arg(long, value_name = "X", value_parser = share, allow_negative_numbers = true, conflicts_with = "tick")]
     pub tolerance: Option<f64>,
-    /// Vector instructions to use: scalar, baseline, avx2 or avx512; the results are the same to the bit [default: the best
-    /// the processor has]
+    /// Use these vector instructions: scalar, baseline, avx2 or avx512. The results are the same to the bit. Default: the
+    /// best that the processor has
     #[arg(long, value_name = "LEVEL")]
     pub simd: Option<Level>,
-    /// Give a parameter of the scene (`params`) another value: a number or an expression; may be given several times
+    /// Give a parameter of the scene (`params`) another value: a number or an expression. The flag may stand several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = setting)]
     pub settings: Vec<(String, String)>,
 }

@@ -18,7 +18,7 @@ pub(super) struct Fmt {
     /// Scene files, or - for standard input, whose layout goes to standard output
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Write nothing; name the files that are not in the standard layout, and exit with 1 if there are any
+    /// Write nothing. Name the files that are not in the standard layout, and exit with 1 if there are any
     #[arg(long)]
     check: bool,
 }
@@ -32,7 +32,7 @@ Examples:
 Your line breaks stay, and so do numbers, texts and comments as they are written. A list or map that fills one line of \
 more than 120 columns gets a line for each item. Sections move only if the scene keeps its meaning.
 
-Exit codes: 0 good, 1 a scene cannot be read or (with --check) is not in the standard layout, 2 usage.";
+Exit codes: 0 good, 1 a scene cannot be read or (with --check) is not in the standard layout, 2 command line wrong.";
 
 /// The name of standard input.
 const STANDARD_INPUT: &str = "-";

@@ -28,7 +28,7 @@ impl Inputs {
         if !is_directory(output) {
             let read = self.0.iter().any(|input| is_same_file(input, output));
             let shown = output.display();
-            return read.then(|| format!("`{shown}` was read for this: write to another file, with -o"));
+            return read.then(|| format!("`{shown}` is an input of this command: write to another file, with -o"));
         }
         let entries = std::fs::read_dir(output).ok()?;
         let pictures = entries.flatten().filter(|entry| {

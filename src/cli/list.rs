@@ -21,14 +21,14 @@ use crate::tick::TickAppExt;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct List {
-    /// One of these: scenes (the default), sections, shapes, the entries of a section such as forces, sensors or layers, or words
-    /// such as methods, colors, channels or themes
+    /// One of these: scenes, sections, shapes, atoms, methods, colors, channels, themes. Or a section with entries, such as
+    /// forces, sensors or layers
     #[arg(value_name = "WHAT", default_value = SCENES)]
     what: String,
-    /// Only lines that hold this text, in capitals or not
+    /// Print only lines that hold this text, in capitals or not
     #[arg(value_name = "FILTER")]
     filter: Option<String>,
-    /// Print each as one line of JSON on standard output
+    /// Print each entry as one line of JSON on standard output
     #[arg(long)]
     json: bool,
 }
@@ -36,17 +36,17 @@ pub(super) struct List {
 const EXAMPLES: &str = "\
 Examples:
   jostle list                   the scenes that come with the program: jostle render example:NAME
-  jostle list sections          everything that may stand in a scene, with an example
+  jostle list sections          all sections that a scene may have, with an example
   jostle list forces            the forces, with an example and the module that brings each
-  jostle list shapes            what bodies with sides may be; `jostle list atoms` for bodies of discs
-  jostle list forces drag       those with `drag` in their line
-  jostle list channels energy   what can be measured and plotted
+  jostle list shapes            the shapes of bodies with sides; `jostle list atoms`: bodies of discs
+  jostle list forces drag       the forces with `drag` in their line
+  jostle list channels energy   the channels of energy, which sensors measure and plots show
 
 `jostle explain NAME` tells more of one of them.";
 
 const SCENES: &str = "scenes";
 const SECTIONS: &str = "sections";
-/// What the entries of `look.layers` are called.
+/// The short name of the entries of `look.layers`.
 const SHORT_LAYERS: &str = "layers";
 /// Lists of what may stand as a value in a body, with the types that read them.
 const CHOICES: [(&str, &str); 2] = [("shapes", "Shape"), ("atoms", "Atoms")];
@@ -58,7 +58,7 @@ pub(super) const READER: &str = "jostle::scene";
 /// One line of a list.
 struct Item {
     name: String,
-    /// What it is, or one correct use.
+    /// A description, or one correct use.
     text: String,
     /// More to be said, on a line of its own.
     more: String,

@@ -75,8 +75,8 @@ Examples:
   jostle render example:bounce -o bounce.png --at 1.5    one picture, after 1.5 s
   jostle render scenes/*.ron -o films/                   a film of each scene
   jostle run example:projectile -o channels.csv          numbers instead of pictures
-  jostle plot example:bounce --channels elastic.position.y  a figure of what a sensor measures
-  jostle check my_scene.ron                              read it and say what is wrong
+  jostle plot example:bounce --channels elastic.position.y  a figure of a sensor's channel
+  jostle check my_scene.ron                              read it and report its mistakes
   jostle test scenes/                                    do all scenes of a folder do what they expect?
   jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
   jostle measure my_scene.ron                            which method and tick reach which error, and at what cost
@@ -86,7 +86,7 @@ Examples:
 
 Scenes that come with the program: {scenes}.
 
-Exit codes: 0 good, 1 scene or expectation wrong, 2 usage or a file cannot be written, 3 the run went wrong.";
+Exit codes: 0 good, 1 scene or expectation wrong, 2 command line wrong or a file cannot be written, 3 run gone wrong.";
 
 fn after_help() -> String {
     let names: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();
@@ -101,7 +101,7 @@ pub use author::{main_with, tell_commit};
 pub struct CommandLine {
     #[command(subcommand)]
     command: Command,
-    /// Let scenes read files that lie neither in their folder or below it, nor in one above it
+    /// Let scenes read files from any folder. Without it, a file lies in the scene's folder, below it, or in one above it
     #[arg(long, global = true)]
     allow_outside: bool,
 }
@@ -114,27 +114,27 @@ enum Command {
     Render(render::Render),
     /// Draw channels as a figure: of a scene, or of a table of comma-separated values
     Plot(plot::PlotCommand),
-    /// Read scenes and say what is wrong with them; with --run also whether they do what they expect
+    /// Read scenes and report their mistakes; with --run also check their expectations
     Check(check::Check),
     /// Run all scenes of a folder, several at once, and check what they expect
     Test(test::Test),
-    /// Run a scene with many values of its parameters, several at once: a table, a contact sheet, films
+    /// Run a scene with many values of its parameters, and write a table, a contact sheet and films
     Sweep(sweep::Sweep),
-    /// Measure what ticks of scenes cost, beside a plain loop that does the same work
+    /// Measure the cost of ticks of scenes, beside a plain loop that does the same work
     Bench(bench::Bench),
-    /// Run problems whose answer is known by all methods, and report error against time: Markdown, HTML, tables, diagrams
+    /// Run problems with exact answers by all methods, and report error against time: Markdown, HTML, tables, diagrams
     Report(report::Report),
-    /// Measure which error each method and tick has on a scene and what it costs, and say which to take
+    /// Measure the error and the cost of each method and tick on a scene, and name the cheapest ones
     Measure(measure::Measure),
     /// Give scenes their standard layout; comments and line breaks stay
     Fmt(fmt::Fmt),
-    /// Show what a scene does in a tick and what that costs; or what a name or a word on the error card means
+    /// Show the systems of a scene with their costs, or the meaning of a name or word
     Explain(explain::Explain),
-    /// List the scenes that come with the program, or what a scene may name: sections, forces, sensors, methods ...
+    /// List the scenes that come with the program, or the names that a scene may use: sections, forces, sensors, methods ...
     List(list::List),
     /// Write a starting point: a plugin or a scene
     New(new::New),
-    /// Write what may stand in a scene: JSON schema for programs, with --manual the manual
+    /// Write the JSON schema of scenes for programs, or with --manual the manual for people
     Schema(schema::SchemaCommand),
 }
 

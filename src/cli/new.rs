@@ -33,7 +33,7 @@ pub(super) struct New {
 
 #[derive(Subcommand, Debug)]
 enum What {
-    /// Write a crate NAME/ with a force, its entry in scenes, a sensor, own state, and tests that prove its law
+    /// Write a crate NAME/ with a force, its entry in scenes, a sensor, own state, and tests of its law
     #[command(after_help = EXAMPLES)]
     Plugin(NewPlugin),
     /// Write a small scene NAME.ron with comments
@@ -43,17 +43,17 @@ enum What {
 
 #[derive(Args, Debug)]
 struct NewPlugin {
-    /// Small letters, digits and underscores, such as rubber_band; the entry in scenes is then RubberBand
+    /// Small letters, digits and underscores, such as rubber_band. The entry in scenes is then RubberBand
     #[arg(value_name = "NAME")]
     name: String,
-    /// A checkout of Jostle to build against. Default: the one that this program was built from
+    /// Build against this checkout of Jostle. Default: the one that this program was built from
     #[arg(long, value_name = "PATH")]
     jostle: Option<PathBuf>,
 }
 
 #[derive(Args, Debug)]
 struct NewScene {
-    /// Letters, digits, `_` and `-`; the file is NAME.ron
+    /// Letters, digits, `_` and `-`. The file is NAME.ron
     #[arg(value_name = "NAME")]
     name: String,
 }
@@ -64,7 +64,7 @@ Examples:
   jostle new plugin rubber_band                     the crate rubber_band/; then: cd rubber_band && cargo test
   jostle new plugin rubber_band --jostle ../jostle  the same, built against another checkout
 
-They are written into the present folder. Nothing is ever overwritten.";
+The command writes into the current directory, and overwrites no file.";
 
 impl New {
     pub(super) fn execute(self) -> Exit {
@@ -163,7 +163,7 @@ fn built_from() -> Result<PathBuf, String> {
     let checkout = Path::new(env!("CARGO_MANIFEST_DIR"));
     match checkout.join("Cargo.toml").is_file() {
         true => Ok(checkout.to_owned()),
-        false => Err("a plugin is built against a checkout of Jostle: name its folder with --jostle PATH".to_owned()),
+        false => Err("a plugin needs a checkout of Jostle: name its folder with --jostle PATH".to_owned()),
     }
 }
 
@@ -194,7 +194,7 @@ fn refusal(path: &Path, error: &std::io::Error) -> String {
     let shown = path.display();
     match error.kind() {
         ErrorKind::AlreadyExists => {
-            format!("`{shown}` is there already, and nothing is overwritten: take another name")
+            format!("`{shown}` exists already, and the command overwrites no file: take another name")
         }
         _ => format!("`{shown}` cannot be written: {error}"),
     }

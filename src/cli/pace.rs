@@ -7,7 +7,7 @@ use super::wall_clock::WallClock;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
-/// How often the bar is moved, at most.
+/// The shortest time between two updates of the bar.
 const BEAT: Duration = Duration::from_millis(50);
 
 /// Seconds of physics after which a run at the speed of the clock waits for it.

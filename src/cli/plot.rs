@@ -29,17 +29,17 @@ use crate::simulation::{Missing, Sampler};
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct PlotCommand {
-    /// A scene file, example:NAME for a scene that comes with the program, or a table with a line of names, .csv or .tsv
+    /// A scene file, or example:NAME for a scene that comes with the program. Or a table (.csv, .tsv) with a line of names
     #[arg(value_name = "SCENE|TABLE")]
     source: String,
     /// The picture. Default: <scene or table>.png in the current directory
     #[arg(short, long, value_name = "FIGURE.png")]
     output: Option<PathBuf>,
-    /// Channels to plot, separated by commas; `*` stands for any letters of names. Channels of different units get plots of
+    /// Plot these channels, separated by commas. `*` stands for any letters of names. Channels of different units get plots of
     /// their own. Default: the plots of the scene, or all columns of the table
     #[arg(long, value_name = "A,B,..", value_delimiter = ',')]
     channels: Vec<String>,
-    /// The channel along the horizontal axis, instead of time; `*.position.x` draws each channel over that of its own body
+    /// The channel along the horizontal axis, instead of time. `*.position.x` draws each channel over that of its own body
     #[arg(long, value_name = "CHANNEL")]
     x: Option<String>,
     /// Title above the figure
@@ -51,12 +51,12 @@ pub(super) struct PlotCommand {
     /// Colours
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(Theme::names()))]
     theme: Option<String>,
-    /// Logarithmic upwards: equal factors take equal lengths
+    /// Make the vertical axis logarithmic: equal factors take equal lengths
     #[arg(long)]
     log: bool,
     #[command(flatten)]
     overrides: OverrideFlags,
-    /// No progress bar, and messages only if something is wrong
+    /// Show no progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
 }
@@ -69,14 +69,14 @@ Examples:
   jostle plot my.ron --x ball.position.x --channels ball.velocity.x      a phase portrait
   jostle plot my.ron --x '*.position.x' --channels '*.position.y'        the path of each body
   jostle plot my.ron --channels energy.residual --log --size 1600x900
-  jostle plot channels.csv --channels '*.position.y'         what `jostle run -o channels.csv` wrote, or any such table";
+  jostle plot channels.csv --channels '*.position.y'         a table of `jostle run -o channels.csv`, or of another program";
 
 /// Width of a figure in pixels, and its height for one plot and for each of several.
 const WIDTH: u32 = 1200;
 const HEIGHT: u32 = 720;
 const HEIGHT_OF_SEVERAL: u32 = 480;
 
-/// What is plotted.
+/// The table that the command plots.
 const TABLE: FileRequest =
     FileRequest { most: 256 << 20, noun: "a table of comma-separated values", smaller: "plot fewer rows or columns" };
 
@@ -167,7 +167,8 @@ impl PlotCommand {
         let end = simulation.ticks() as f64 * simulation.clock().dt;
         let sampler = Sampler::new(&mut simulation, &entries, 0.0, end);
         let mut sampler = sampler.map_err(|Missing { channel, .. }| {
-            let help = "walls have `force` and `contacts`, bodies `position`, `velocity`, `angle` and `spin` too";
+            let help =
+                "walls have `force` and `contacts`, and bodies also have `position`, `velocity`, `angle` and `spin`";
             request.refuse(Exit::Usage, "--channels", &format!("there is no channel {channel:?}"), help)
         })?;
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet);
@@ -282,7 +283,7 @@ impl PlotCommand {
                 let (name, unit) = (&column.name, &column.unit);
                 let what = with_unit(name, unit);
                 say(&format!(
-                    "note: {what}: {wild} of {all} cells hold no finite number, and the figure leaves them out"
+                    "note: {what}: {wild} of {all} cells are empty, NaN or infinite, and the figure leaves them out"
                 ));
             }
         }

@@ -23,12 +23,12 @@ pub(super) struct Render {
     /// Scene files, or example:NAME for a scene that comes with the program
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Where to: FILM.gif, .apng, .mp4 or .webm (the last two need the program ffmpeg), PICTURE.png (with --at, --strip
-    /// or --sheet), a directory DIR/ (one scene: DIR/frame_00000.png and so on; several: DIR/<scene>.gif each), FILM.rgba
-    /// or - for raw pictures to a file or standard output. Default: <scene>.gif in the current directory
+    /// Write here. FILM.gif, .apng, .mp4 and .webm are films; the last two need the program ffmpeg. PICTURE.png goes with
+    /// --at, --strip or --sheet. A directory DIR/ gets DIR/frame_00000.png and so on, or DIR/<scene>.gif of each of several
+    /// scenes. FILM.rgba and - are raw pictures in a file and on standard output. Default: <scene>.gif in the current directory
     #[arg(short, long, value_name = "OUT")]
     output: Option<PathBuf>,
-    /// Draw only the picture at this time of the physics, in seconds; the run ends there
+    /// Draw only the picture at this time of the physics, in seconds. The run ends there
     #[arg(long, value_name = "T", value_parser = flags::moment, allow_negative_numbers = true)]
     at: Option<f64>,
     /// Draw the pictures at these times of the physics, in seconds, side by side
@@ -37,29 +37,28 @@ pub(super) struct Render {
     /// Draw a contact sheet of so many columns and rows: pictures spread evenly over the film
     #[arg(long, value_name = "4x3", value_parser = flags::sheet, conflicts_with_all = ["at", "strip"])]
     sheet: Option<(u32, u32)>,
-    /// Make the GIF no larger than this, such as 2MB: with fewer colours, smaller, with fewer frames; a message tells
-    /// which
+    /// Make the GIF no larger than this, such as 2MB: with fewer colours, fewer pixels or fewer frames. A message tells which
     #[arg(long, value_name = "SIZE", value_parser = flags::bytes, allow_hyphen_values = true)]
     #[arg(conflicts_with_all = ["at", "strip", "sheet", "png", "pace"])]
     max_size: Option<u64>,
-    /// Draw no faster than the film is to be watched, for a program that shows it live (`-o - --pace`); frames that come
-    /// too late are counted. Otherwise as fast as possible
+    /// Draw no faster than the film plays, for a program that shows it live (`-o - --pace`). A message counts the frames that
+    /// come too late. Without this flag, drawing is as fast as possible
     #[arg(long, conflicts_with_all = ["at", "strip", "sheet"])]
     pace: bool,
-    /// PNG sequences instead of GIFs; of several scenes each in a directory of its own, DIR/<scene>/
+    /// Write PNG sequences instead of GIFs. Each of several scenes gets a directory of its own, DIR/<scene>/
     #[arg(long)]
     png: bool,
-    /// Size of the picture in pixels, instead of the scene's; of each one in a strip or sheet
+    /// Size of the picture in pixels, instead of the scene's. In a strip or sheet, each picture has it
     #[arg(long, value_name = "WxH", value_parser = flags::size, allow_negative_numbers = true)]
     size: Option<(u32, u32)>,
-    /// Frames per second of the film, instead of the scene's; a GIF shows at most 50
+    /// Frames per second of the film, instead of the scene's. A GIF shows at most 50
     #[arg(long, value_name = "N", value_parser = flags::rate, allow_negative_numbers = true)]
     fps: Option<f64>,
     /// Colours, instead of the scene's: paper, night or print, or a file such as mine.ron
     #[arg(long, value_name = "NAME")]
     theme: Option<String>,
-    /// Layers beside the bodies, in addition to the scene's layers: trails, forces, velocities, boxes, names,
-    /// contacts, scale, time, separated by commas; `none`: nothing, not even the scene's
+    /// Draw these layers too, separated by commas: trails, forces, velocities, boxes, names, contacts, scale, time. `none`
+    /// draws only the bodies, without the scene's layers
     #[arg(long, value_name = "LAYER,LAYER", value_parser = flags::layers)]
     layers: Option<flags::LayerWords>,
     #[command(flatten)]
@@ -68,10 +67,10 @@ pub(super) struct Render {
     estimates: EstimateFlags,
     #[command(flatten)]
     strict: StrictFlag,
-    /// Threads that draw and that share the work of a tick; the film does not depend on it. Default: one for each core
+    /// Draw with so many threads, and share the work of a tick among them. The film is the same. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
-    /// No progress bar, and messages only if something is wrong
+    /// Show no progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
     /// Print the result of each scene as one line of JSON on standard output
@@ -201,6 +200,6 @@ fn report(written: &WrittenFilm, cut: bool) {
     }
     if *left_over > 0 {
         let pictures = in_words(*left_over as usize, "picture", "pictures");
-        say(&format!("note: after them still stand {pictures} of an earlier, longer sequence"));
+        say(&format!("note: {pictures} of an earlier, longer sequence stand behind them"));
     }
 }

@@ -23,16 +23,16 @@ pub(super) struct Report {
     /// Problems and hard cases, by name. Default: all
     #[arg(value_name = "NAME")]
     names: Vec<String>,
-    /// Folder for the report: report.md, report.html, for each problem a table (CSV) and a diagram (PNG), and hard_cases.csv
+    /// The folder for report.md, report.html and hard_cases.csv, and for a table (CSV) and a diagram (PNG) of each problem
     #[arg(short, long, value_name = "DIR")]
     output: PathBuf,
-    /// Fewer methods, ticks and hard cases: a first look, in less than a minute
+    /// Take fewer methods, ticks and hard cases, for a first look in less than a minute
     #[arg(long)]
     quick: bool,
-    /// Curves of other engines for the diagrams: the table that tools/peers/peers writes
+    /// Draw the curves of other engines too, from the table that tools/peers/peers writes
     #[arg(long, value_name = "FILE.csv")]
     peers: Option<PathBuf>,
-    /// No progress bar, and messages only if something is wrong
+    /// Show no progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
 }
@@ -44,15 +44,15 @@ Examples:
   jostle report kepler cradle gas -o three   two problems and a hard case
   jostle report -o report --peers peers.csv  with the curves of other engines
 
-Each problem has an exact answer. Each method runs it at several ticks, and the report tells the error and the cost of each. It also \
-says how to reach an error of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold) at the least cost, and which grade each method \
-reaches. Errors are found on all cores. Times are found apart from them, one run after the other, and are the least of several. \
+Each problem has an exact answer. Each method runs it at several ticks, and the report tells the error and the cost of each. \
+It also names the cheapest settings for errors of 1e-2 (bronze), 1e-4 (silver) and 1e-8 (gold), and the grade of each method. \
+The command finds errors on all cores. Then it times one run after the other, and takes the least of several times. \
 The report lists all runs that failed, with their reasons.
 
-Hard cases are scenes that break engines. Each value stands beside its threshold and the source of that. --quick leaves out \
-the expensive ones, and the report says which.
+Hard cases are scenes that break engines. Each value stands beside its threshold and the source of the threshold. --quick leaves \
+out the expensive cases, and the report names them.
 
-Exit codes: 0 good, 1 a hard case fails (the report is complete all the same), 2 usage or a file cannot be read or written.";
+Exit codes: 0 good, 1 a hard case fails (the report is still complete), 2 command line wrong, or a file cannot be read or written.";
 
 /// Curves of other engines.
 const PEERS: FileRequest =

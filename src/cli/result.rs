@@ -106,7 +106,7 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     exit
 }
 
-/// How a scene came back, in a sentence.
+/// The distance of a scene from its beginning after the way back, in a sentence.
 fn returned(back: &Reversal) -> String {
     let because = back.because.as_ref().map_or_else(String::new, |because| format!(": {because}"));
     format!(

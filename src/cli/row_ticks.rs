@@ -16,7 +16,8 @@ impl Rows {
         let step = rate.map_or_else(|| simulation.frame_step(), f64::recip);
         if let Some(rate) = rate.filter(|rate| rate * dt > 1.0 + 1e-9) {
             say(&format!(
-                "note: --fps {} asks for more rows than there are ticks: there is one at each tick, every {} s; --tick has them closer",
+                "note: --fps {} asks for more rows than the run has ticks. Each tick gives one row, every {} s. A shorter \
+                 --tick gives more",
                 number(rate),
                 number(dt)
             ));

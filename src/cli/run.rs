@@ -33,11 +33,11 @@ pub(super) struct RunArguments {
     /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE")]
     scene: String,
-    /// Write the channels of the scene's sensors here: comma-separated values, a row for each frame of the film (at
-    /// the nearest tick); `-` is standard output
+    /// Write the channels of the scene's sensors here, as comma-separated values. Each frame of the film gives a row, at the
+    /// nearest tick. `-` is standard output
     #[arg(short, long, value_name = "channels.csv")]
     output: Option<PathBuf>,
-    /// Rows of channels for each second of physics, each at the nearest tick. Default: one for each frame of the film
+    /// Write so many rows of channels for each second of physics, each at the nearest tick. Default: one for each frame
     #[arg(long, value_name = "N", value_parser = flags::rows, allow_negative_numbers = true, requires = "output")]
     fps: Option<f64>,
     #[command(flatten)]
@@ -48,19 +48,19 @@ pub(super) struct RunArguments {
     snapshots: SnapshotFlags,
     #[command(flatten)]
     strict: StrictFlag,
-    /// Afterwards run there and back: to the end, all velocities turned round, and as long again. Says how closely the scene
-    /// comes back to its beginning
+    /// Afterwards run there and back: to the end, and with all velocities turned round as long again. The card says how closely
+    /// the scene comes back to its beginning
     #[arg(long)]
     reverse: bool,
     /// Run no faster than the clock on the wall: a second of physics takes a second. The card counts ticks that come too late.
-    /// Otherwise as fast as possible
+    /// Without this flag, a run is as fast as possible
     #[arg(long)]
     pace: bool,
-    /// Threads for the work of a tick, if there is enough of it; the results are the same to the bit. Default: one for each
-    /// core
+    /// Share the work of a tick among so many threads, if there is enough of it. The results are the same to the bit. Default:
+    /// one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
-    /// No progress bar, and messages only if something is wrong
+    /// Show no progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
     /// Print the result as one line of JSON on standard output
@@ -71,20 +71,20 @@ pub(super) struct RunArguments {
 const EXAMPLES: &str = "\
 Examples:
   jostle run example:projectile                 the error card: how far to trust the result
-  jostle run my.ron -o channels.csv             what the sensors measured
-  jostle run my.ron -o channels.csv --fps 1000  the same a thousand times a second
-  jostle run my.ron -o - --quiet | head         the same for another program
+  jostle run my.ron -o channels.csv             the channels of the sensors
+  jostle run my.ron -o channels.csv --fps 1000  the channels a thousand times a second
+  jostle run my.ron -o - --quiet | head         the channels for another program
   jostle run my.ron --tick 0.1ms --json         another tick; the result for a program
   jostle run my.ron --tolerance 1e-6            the coarsest steps whose error stays below a millionth of the motion
   jostle run my.ron --method Reference          the smallest error there is, and how large it is
   jostle run my.ron --estimate --rounding --model
                                                 how wrong it is: by its tick, by finite digits, by soft contacts
   jostle run my.ron --reverse                   there and back: how closely it returns
-  jostle run my.ron --save at=2s:half.snapshot  set the run down after two seconds ...
+  jostle run my.ron --save at=2s:half.snapshot  store the run after two seconds ...
   jostle run my.ron --resume half.snapshot      ... and go on from there, to the same bits
   jostle run my.ron --pace                      at the speed of the clock on the wall
 
-The card and all messages go to standard error (`2> card.txt` keeps them), results for programs to standard output.";
+The card and all messages go to standard error (`2> card.txt` keeps them). Results for programs go to standard output.";
 
 impl RunArguments {
     fn overrides(&self, plan: Option<Plan>) -> Overrides {
@@ -118,9 +118,7 @@ impl RunArguments {
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let measures = simulation.get_resource::<Channels>().is_some_and(|channels| !channels.is_empty());
         if self.output.is_some() && !measures {
-            say(
-                "note: the scene has no sensors, so there are only times to write: add `sensors: [Energy()]` or others",
-            );
+            say("note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others");
         }
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {

@@ -17,11 +17,11 @@ use crate::tick::{Failure, Notes};
 /// Flags of snapshots.
 #[derive(Args, Clone, Debug)]
 pub(super) struct SnapshotFlags {
-    /// Save the run at a moment, to go on from there with --resume; may be given several times
+    /// Save the run at a moment, to go on from there with --resume. The flag may stand several times
     #[arg(long, value_name = "at=T:FILE", value_parser = saving)]
     save: Vec<Saving>,
-    /// Go on from a file that --save wrote in a run of the same scene with the same flags. Channels begin at that moment, the
-    /// card counts from the beginning of the first run, and no error is estimated
+    /// Go on from a file that --save wrote in a run of the same scene with the same flags. Channels begin at that moment. The
+    /// card counts from the beginning of the first run, and estimates no error
     #[arg(long, value_name = "FILE", conflicts_with_all = ["estimate", "rounding", "model", "reverse"])]
     resume: Option<PathBuf>,
 }
@@ -91,7 +91,7 @@ impl SnapshotFlags {
         for (number, Saving { at, file }) in self.save.iter().enumerate() {
             let (name, dt) = (file.display(), simulation.clock().dt);
             if file == Path::new("-") {
-                return Err("--save: a snapshot is written to a file, not to standard output: name one".to_owned());
+                return Err("--save: a snapshot needs a file, not standard output: name one".to_owned());
             }
             let tick = (at / dt).round() as u64;
             let same = |other: &Path| other == file.as_path() || is_same_file(other, file);
@@ -103,7 +103,7 @@ impl SnapshotFlags {
             } else if is_directory(file) {
                 return Err(format!("--save: `{name}` is a directory: name a file in it"));
             } else if output.is_some_and(same) || self.save[..number].iter().any(|other| same(&other.file)) {
-                return Err(format!("--save: `{name}` is written by this command already: name another file"));
+                return Err(format!("--save: this command writes `{name}` already: name another file"));
             } else if let Some(message) = inputs.objection(file).or_else(|| takes_no_file(file)) {
                 return Err(format!("--save: {message}"));
             }
@@ -132,7 +132,7 @@ fn resume(simulation: &mut Simulation, file: &Path) -> Result<(), String> {
         return Err(told(&format!("it is of t = {time} s, behind the end of this run")));
     }
     let note = format!(
-        "went on from a snapshot of t = {time} s: accounts count from the first beginning, errors were not estimated"
+        "the run went on from a snapshot of t = {time} s. Accounts count from the first beginning, and no error is estimated"
     );
     simulation.world_mut().resource_mut::<Notes>().0.push(note);
     Ok(())

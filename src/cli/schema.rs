@@ -28,7 +28,7 @@ pub(super) struct SchemaCommand {
 const EXAMPLES: &str = "\
 Examples:
   jostle schema -o scene.schema.json        JSON schema (draft 2020-12) of the scene language
-  jostle schema --manual -o manual.md       the same for people
+  jostle schema --manual -o manual.md       the manual for people
   jostle schema --manual | less";
 
 impl SchemaCommand {

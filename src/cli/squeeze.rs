@@ -13,7 +13,7 @@ pub(super) struct Squeeze<'a> {
     pub view: &'a View,
     /// The size in bytes.
     pub most: u64,
-    /// How many frames were kept aside.
+    /// The number of frames that were kept aside.
     pub frames: u64,
 }
 
@@ -108,9 +108,8 @@ impl Squeeze<'_> {
         let Some((index, fitting)) = best else {
             let (most, smallest) = (bytes_in_words(self.most as f64), bytes_in_words(smallest));
             order.request.usage(&format!(
-                "the film does not fit into {most}: even at an eighth of its size, with a sixth of its frames and 15 \
-                 colours it takes about {smallest}; show less of the run with the film's `from` and `to`, or raise \
-                 --max-size"
+                "the film does not fit into {most}. At an eighth of its size, with a sixth of its frames and 15 colours, it \
+                 takes {smallest}. Show less of the run with the film's `from` and `to`, or raise --max-size"
             ));
             return Err(Trouble::Told);
         };

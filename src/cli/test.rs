@@ -23,7 +23,7 @@ use crate::scene::Source;
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Test {
-    /// Folders with scenes (all files *.ron in them and below), scene files, or example:NAME. Default: the present folder
+    /// Folders with scenes (all files *.ron in them and below), scene files, or example:NAME. Default: the current directory
     #[arg(value_name = "DIR|SCENE")]
     places: Vec<String>,
     /// Also write a report as JUnit XML, which build servers read
@@ -33,10 +33,10 @@ pub(super) struct Test {
     overrides: OverrideFlags,
     #[command(flatten)]
     strict: StrictFlag,
-    /// Scenes that run at the same time; no number depends on it. Default: one for each core
+    /// Run so many scenes at the same time. No result depends on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
-    /// Only what is wrong, and the summary
+    /// Print only mistakes, broken expectations and the summary
     #[arg(long)]
     quiet: bool,
     /// Print the result of each scene as one line of JSON on standard output
@@ -47,20 +47,20 @@ pub(super) struct Test {
 const EXAMPLES: &str = "\
 Examples:
   jostle test                                  all scenes here and below
-  jostle test scenes/ my.ron                   those of a folder, and one more
+  jostle test scenes/ my.ron                   the scenes of a folder, and one more
   jostle test scenes/ --junit report.xml       for a build server
   jostle test scenes/ --tick 0.1ms             do they hold with a finer tick?
 
 The output has a line for each scene:
   good       all expectations hold
-  untested   it ran, but expects nothing
+  untested   the scene ran, but has no expectations
   broken     an expectation does not hold
   refused    the scene is wrong
-  failed     the run went wrong, or with --strict the verdict does not trust it
-  skipped    a file in a folder that is no scene, or a part for others to include: it has no
-             mistakes of syntax and no `clock`
+  failed     the run went wrong, or with --strict the verdict is `Do not trust it`
+  skipped    a file of a folder without a `clock` and without mistakes of syntax: it is no scene,
+             or a part that other scenes include
 
-Exit codes: 0 all good, 1 broken or refused, 2 usage, 3 failed.";
+Exit codes: 0 all good, 1 broken or refused, 2 command line wrong, 3 failed.";
 
 /// A scene to be tried.
 struct Candidate {
@@ -142,7 +142,7 @@ impl Test {
         exit
     }
 
-    /// Which scenes are asked for.
+    /// The requested scenes.
     fn candidates(&self) -> Result<Vec<Candidate>, String> {
         if let Some(path) = &self.junit {
             let message = if is_directory(path) {

@@ -36,7 +36,7 @@ impl Verdict {
         }
     }
 
-    /// How a command ends that made this run.
+    /// The end of a command that made this run.
     pub fn exit(self) -> Exit {
         match self {
             Self::Good => Exit::Good,
@@ -50,7 +50,7 @@ impl Verdict {
 #[derive(Clone, Debug)]
 pub(super) struct Trial {
     pub verdict: Verdict,
-    /// Why it is not good, in a line; empty if it is.
+    /// The reason for which it is not good, in a line; empty if it is.
     pub reason: String,
     /// The mistakes of a scene that was refused.
     pub errors: Option<SceneErrors>,
@@ -115,7 +115,7 @@ impl Trial {
         }
     }
 
-    /// How many expectations hold.
+    /// The number of expectations that hold.
     pub fn held(&self) -> usize {
         self.expect.iter().filter(|outcome| outcome.holds).count()
     }

@@ -45,7 +45,7 @@ impl Threads {
         Self { count: count.max(1), others: Arc::default() }
     }
 
-    /// How many there are.
+    /// The number of them.
     pub fn count(&self) -> usize {
         self.count
     }

@@ -25,7 +25,7 @@ pub struct Disc {
 pub struct HullLook {
     /// Two corners and more, counter-clockwise, in the body's own frame from its centre of mass, in metres.
     pub corners: Vec<DVec2>,
-    /// Which sides are cuts, behind which another part of the body lies; side i begins at corner i.
+    /// The sides that are cuts, behind which another part of the body lies. Side i begins at corner i.
     pub cuts: Vec<bool>,
     /// Radius of the corners in metres.
     pub radius: f64,

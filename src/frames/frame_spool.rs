@@ -41,7 +41,7 @@ impl Spool {
         Ok(Self { file, casts: Vec::new(), frames: 0, bytes: 0 })
     }
 
-    /// How many frames there are.
+    /// The number of frames.
     pub fn frames(&self) -> u64 {
         self.frames
     }

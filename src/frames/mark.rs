@@ -41,7 +41,7 @@ pub enum MarkShape {
     Label {
         /// The middle of the named thing.
         at: DVec2,
-        /// How far that reaches up and down.
+        /// Its reach up and down.
         clear: f64,
         /// The text.
         text: String,
@@ -57,7 +57,7 @@ pub enum MarkShape {
     Inset {
         /// Its middle.
         center: DVec2,
-        /// How high and wide it is.
+        /// Its height and width.
         height: f64,
         /// The corner of the picture.
         corner: Corner,

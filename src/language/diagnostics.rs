@@ -52,7 +52,7 @@ pub struct Diagnostics {
     scope: String,
     problems: Vec<Diagnostic>,
     notes: Vec<String>,
-    /// How much work it was to compare patterns with names.
+    /// The work of comparing patterns with names.
     compared: usize,
 }
 
@@ -93,7 +93,7 @@ impl Diagnostics {
         let before = self.compared;
         self.compared = before.saturating_add(work);
         if self.compared > MOST_COMPARED && before <= MOST_COMPARED {
-            let message = "here patterns and names have become too many to be compared, each with each";
+            let message = "here patterns and names have become too many to compare each with each";
             self.error(path, message).help("name bodies in fewer patterns: one with `*` may stand for many");
         }
         self.compared <= MOST_COMPARED

@@ -78,7 +78,7 @@ fn as_written(value: &str, there: Option<(&Tree, Id)>, path: &str, text: &str) -
     Ok(format!("\"{}\"", value.replace('\\', "\\\\").replace('"', "\\\"")))
 }
 
-/// Why a path leads nowhere.
+/// The reason for which a path leads nowhere.
 fn nowhere(tree: &Tree, parent: Id, steps: &[Step], text: &str) -> String {
     let path = tree.path(parent, text);
     let place = if path.is_empty() { "the scene".to_owned() } else { format!("`{path}`") };

@@ -64,7 +64,7 @@ pub trait Embed {
 pub struct Embedded {
     /// Fields that are added to the entry: `discs: [..]`.
     pub fields: String,
-    /// How much work the reading of these fields is, in bytes.
+    /// The work of reading these fields, in bytes.
     pub work: usize,
     /// A note for the card, of a file that was not read before.
     pub note: Option<String>,

@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use super::source::{Lines, Source};
 
-/// How many mistakes are shown in full; the rest are counted.
+/// The number of mistakes that are shown in full; the rest are counted.
 const SHOWN: usize = 20;
 /// Longer excerpts than this many bytes are not shown, only named.
 const LONGEST_EXCERPT: usize = 4000;
@@ -17,7 +17,7 @@ const LONGEST_EXCERPT: usize = 4000;
 /// No part of a message is longer than this many bytes.
 const LONGEST_PART: usize = 2000;
 
-/// How many steps of the way to a mistake are shown: instances, repetitions, included files.
+/// The number of steps that a message shows of the way to a mistake: instances, repetitions, included files.
 const STEPS_SHOWN: usize = 4;
 
 /// A place in one of the scene's files, and its part in a mistake.
@@ -65,7 +65,7 @@ pub struct SceneError {
     /// Through which instances, repetitions and included files the place is reached, nearest first.
     #[serde(rename = "through", skip_serializing_if = "Vec::is_empty", serialize_with = "labels")]
     pub(crate) chain: Vec<Mark>,
-    /// How often the same mistake is made again through other instances or repetitions.
+    /// The number of times that the same mistake is made again through other instances or repetitions.
     #[serde(skip)]
     pub(crate) again: usize,
 }

@@ -206,7 +206,7 @@ impl<A> Loading<'_, A> {
                     self.format(id);
                 }
                 "title" => self.title(id),
-                "notes" => self.header.notes = self.read(id, "notes: \"What to look for.\""),
+                "notes" => self.header.notes = self.read(id, "notes: \"Look at the second ball.\""),
                 name => {
                     clock |= name == "clock";
                     self.section(name, id);
@@ -442,7 +442,7 @@ impl<A> Loading<'_, A> {
         let (told, counted) = problems.split_at(problems.len().min(MOST_PROBLEMS));
         self.errors.extend(told.iter().map(|problem| placed(&self.walked, problem)));
         if let Some(next) = counted.first() {
-            let message = format!("{} more mistakes were found by the checks, the first of them here", counted.len());
+            let message = format!("the checks found {} more mistakes, the first of them here", counted.len());
             self.errors.push(SceneError { message, help: None, ..placed(&self.walked, next) });
         }
     }

@@ -55,7 +55,7 @@ pub(super) struct Names {
 }
 
 impl Names {
-    /// How many there are.
+    /// The number of them.
     pub fn len(&self) -> usize {
         self.len
     }

@@ -211,7 +211,7 @@ impl Outline {
         self.kinds.get(&kind).map_or(&[], Names::list)
     }
 
-    /// How many names of a kind there are.
+    /// The number of names of a kind.
     pub fn count(&self, kind: NameKind) -> usize {
         self.kinds.get(&kind).map_or(0, Names::len)
     }

@@ -156,7 +156,7 @@ impl<A> Default for Registry<A> {
     }
 }
 
-/// How names are registered.
+/// The registration of names.
 ///
 /// # Panics
 /// It is a mistake of the program to register a name twice, or an entry before its section. The program then panics

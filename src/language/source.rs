@@ -194,7 +194,7 @@ impl<'a> Lines<'a> {
         start..end.max(start)
     }
 
-    /// How many lines there are.
+    /// The number of lines.
     pub(crate) fn count(&self) -> usize {
         self.starts.len()
     }
@@ -242,7 +242,7 @@ mod tests {
             "Scene(clock: (",
             "scene(format: 1)",
             "Sceen(",
-            // Slips, which must not keep a scene from being looked at.
+            // Slips, which must not keep a user from looking at the scene.
             "Scene(format: 1, clok: (duration: 1), bodies: [])",
             "Scene(format: 1, Clock: (duration: 1), bodies: [])",
             "Scene(format: 2)",

@@ -32,7 +32,7 @@ pub(crate) struct Node {
     pub(crate) index: u32,
     key: (u32, u32),
     value: (u32, u32),
-    /// How many bytes of the value are its leading name.
+    /// The length in bytes of the leading name of the value.
     name: u32,
     children: (u32, u32),
     pub(crate) form: Form,

@@ -32,7 +32,7 @@ pub struct LargestOverlap {
     pub share_of_radius: f64,
     /// The two bodies, or the body and the wall.
     pub bodies: Vec<String>,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 
@@ -50,7 +50,7 @@ pub struct LargestDrift {
     pub meters: f64,
     /// The joint.
     pub joint: String,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 
@@ -200,7 +200,7 @@ impl Card {
         let evidence = Evidence { world, card: &card };
         let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));
         let verdict = match failure.zip(why.as_ref()) {
-            Some((failure, why)) => format!("{DISTRUST}: the run went wrong: {failure}; {why}."),
+            Some((failure, why)) => format!("{DISTRUST}: the run went wrong: {failure}. {}.", crate::capital(why)),
             None => evidence.verdict(),
         };
         card.warnings.extend(missing);

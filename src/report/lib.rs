@@ -14,3 +14,9 @@ pub mod work_precision;
 
 pub use advice::Remedy;
 pub use card::{Card, SimulationExt};
+
+/// The text with a capital letter at its beginning, as a sentence has it.
+fn capital(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}

@@ -21,7 +21,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let state = world.resource::<State>();
     let (clock, stability) = (state.clock(), state.stability());
     let time_scales = state.time_scales();
-    let advice = remedy.map_or_else(String::new, |remedy| format!("; use {remedy}"));
+    let advice = remedy.map_or_else(String::new, |remedy| format!(". Use {remedy}"));
     let mut warnings = Vec::new();
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // If steps follow their error, ticks are only moments at which the run is read.
@@ -33,14 +33,14 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         let critical = fastest.critical_tick(stability);
         let (holder, body, time) = (fastest.holder, name(fastest.body), number(fastest.time));
         let what = match critical {
-            0.0 => format!("no tick is stable under this method with the {holder} of `{body}`, as at t = {time} s"),
+            0.0 => format!("this method has no stable tick for the {holder} of `{body}` at t = {time} s. They"),
             _ => format!(
-                "the tick of {} s is above the critical one of {} s that the {holder} of `{body}` had at t = {time} s",
+                "the tick of {} s is above the critical one of {} s. The {holder} of `{body}` set it at t = {time} s, and",
                 number(clock.dt),
                 number(critical),
             ),
         };
-        warnings.push(format!("{what}: they can gain energy at each tick{advice}"));
+        warnings.push(format!("{what} can gain energy at each tick{advice}"));
     }
     let steps = state.steps();
     let known = state.time_scales().fastest.map(|fastest| fastest.angular_frequency);
@@ -48,12 +48,11 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     if let Some(critical) = critical.filter(|critical| beyond.is_none() && steps.shortened > 0 && *critical < clock.dt)
     {
         warnings.push(format!(
-            "the tick of {} s is above the critical one of {} s: {} in contacts {} made shorter, which resolves them, but not as \
-             finely as a shorter tick does{advice}",
+            "the tick of {} s is above the critical one of {} s. The engine made {} shorter to resolve contacts. A shorter tick \
+             resolves them better{advice}",
             number(clock.dt),
             number(critical),
             if steps.shortened == 1 { "one step".to_owned() } else { format!("{} steps", steps.shortened) },
-            if steps.shortened == 1 { "was" } else { "were" },
         ));
     }
     // If the tick is above the critical one, this warning is superfluous.
@@ -61,8 +60,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     if let Some(brief) = brief {
         let ticks = brief.duration() / clock.dt;
         warnings.push(format!(
-            "the contact of `{}` and `{}` at t = {} s lasts {ticks:.1} ticks: below {FEWEST_TICKS} its impact is not \
-             resolved{advice}",
+            "the contact of `{}` and `{}` at t = {} s lasts {ticks:.1} ticks. The run does not resolve an impact of fewer than \
+             {FEWEST_TICKS}{advice}",
             name(brief.between.0),
             name(brief.between.1),
             number(brief.time),
@@ -73,7 +72,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     if let Some(far) = far {
         let radii = far.travel / state.bodies().smallest_radius;
         warnings.push(format!(
-            "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s and may have passed through \
+            "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s. It may have passed through \
              others unseen{advice}",
             name(far.body),
             number(far.time),
@@ -81,12 +80,12 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     }
     let mode = world.get_resource::<ChosenMethod>().map_or_else(EvaluationMode::default, |method| method.mode);
     let departures = state.models().flat_map(|model| model.departures(state, mode));
-    warnings.extend(departures.map(|departure| format!("{}; use {}", departure.what, departure.remedy)));
+    warnings.extend(departures.map(|departure| format!("{}. Use {}", departure.what, departure.remedy)));
     let located = state.located();
     if located.given_up > 0 {
         warnings.push(format!(
-            "in {} of {} ticks events were too many to locate them one by one: those went on under velocity Verlet, \
-             whose order is 2, and 1 where forces jump",
+            "in {} of {} ticks there were too many events to locate them all. Velocity Verlet made these ticks: its order is 2, and 1 \
+             if forces jump",
             located.given_up, clock.ticks,
         ));
     }

@@ -227,7 +227,7 @@ fn in_disc(piece: &Piece, center: DVec2, radius: f64, ranks: Ranks) -> Spans {
                 (distance - unequal) * (distance + unequal)
             };
             let growth = ranks.growth(is_flat(room / (4.0 * arc.radius * radius)), opposite);
-            // How much the own circle is larger than the grown other one.
+            // The difference of the own radius and the grown other one.
             let larger = (arc.radius - radius) - growth;
             if larger + distance <= 0.0 {
                 return vec![(0.0, arc.angle)];

@@ -24,11 +24,13 @@ pub enum Mended {
 impl fmt::Display for Mended {
     fn fmt(&self, text: &mut fmt::Formatter) -> fmt::Result {
         match self {
-            Self::Turned => write!(text, "the points ran clockwise: their order is turned round"),
+            Self::Turned => write!(text, "the points ran clockwise, and the engine reversed their order"),
             Self::Straight { point } => {
-                write!(text, "point {point} lies on the line through its neighbours: it is left out")
+                write!(text, "point {point} lies on the line through its neighbours, and the engine left it out")
             }
-            Self::Cut { parts } => write!(text, "the shape is concave: it is cut into {parts} convex parts"),
+            Self::Cut { parts } => {
+                write!(text, "the shape is concave, and the engine cut it into {parts} convex parts")
+            }
         }
     }
 }
@@ -150,7 +152,7 @@ impl fmt::Display for ShapeError {
                 write!(text, "sides {first} and {second} meet at ({}, {})", at.x, at.y)
             }
             Self::NotConvex { point } => write!(text, "the outline bends inwards at point {point}"),
-            Self::NotFinite { quantity } => write!(text, "{quantity} is not a finite number"),
+            Self::NotFinite { quantity } => write!(text, "{quantity} is NaN or infinite"),
             Self::OutOfRange { quantity, found } => {
                 write!(text, "{quantity} is {found} m: sizes lie between 1e-75 m and 1e75 m")
             }

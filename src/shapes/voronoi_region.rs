@@ -37,8 +37,8 @@ impl Hull {
         }
     }
 
-    /// Which border a point has passed that leaves the region of a feature: whether it is the second. Both borders of the end of a capsule
-    /// are one line; there the half in which the point lies decides.
+    /// The border that a point has passed if it left the region of a feature: whether it is the second. Both borders of the
+    /// end of a capsule are one line; there the half in which the point lies decides.
     pub fn passed_second(&self, feature: Feature, point: DVec2, [_, second]: [bool; 2]) -> bool {
         match (feature, self.corners()) {
             (Feature::Corner(corner), [_, _]) => self.sides()[corner].normal.dot(point - self.corners()[corner]) > 0.0,

@@ -80,7 +80,7 @@ impl FromStr for Level {
             Ok(level)
         } else {
             Err(format!(
-                "this processor has no {level}; its best is `{}`, which is taken without the flag",
+                "this processor has no {level}. Its best is `{}`, which the program takes without the flag",
                 Self::best()
             ))
         }

@@ -58,7 +58,7 @@ pub const BLOCK: usize = 8;
 pub trait Lanes:
     Copy + Add<Output = Self> + Sub<Output = Self> + Mul<Output = Self> + Div<Output = Self> + Neg<Output = Self>
 {
-    /// How many: a divisor of [`BLOCK`].
+    /// The number of lanes: a divisor of [`BLOCK`].
     const COUNT: usize;
 
     /// Half the number of lanes, for the rest of a list. One lane stays one.

@@ -28,7 +28,7 @@ impl QuadPairs {
         self.bound = 0;
     }
 
-    /// How many blocks there are.
+    /// The number of blocks.
     pub fn len(&self) -> usize {
         self.blocks.len()
     }

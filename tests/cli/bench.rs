@@ -92,9 +92,12 @@ fn scenes_are_told_in_a_table() {
     let lines: Vec<&str> = ended.out.lines().collect();
     assert!(lines[0].starts_with("scene ") && lines[0].ends_with("x plain  bytes/atom"), "{}", ended.out);
     assert!(lines[1].starts_with("example:bounce ") && lines[2].starts_with("fall "), "{}", ended.out);
-    for text in
-        ["Where the time goes:", "Integrate", "What came out:", "note: fall: no plain loop beside it, for its contacts"]
-    {
+    for text in [
+        "The shares of the time:",
+        "Integrate",
+        "The results of the runs:",
+        "note: fall: no plain loop beside it, for its contacts",
+    ] {
         assert!(ended.out.contains(text), "{text}: {}", ended.out);
     }
     // Without a name there is something to measure, too.

@@ -9,7 +9,7 @@ fn a_good_scene_is_told_in_a_line() {
     assert_eq!(ended.out, "fall.ron: good; 1 body, 1 atom, 0 walls\n".repeat(2));
     assert_eq!(ended.err, "");
     let ended = folder.jostle("check --run fall.ron").code(0);
-    assert_eq!(ended.out, "fall.ron: good; 1 body, 1 atom, 0 walls; nothing is expected\n");
+    assert_eq!(ended.out, "fall.ron: good; 1 body, 1 atom, 0 walls; it has no expectations\n");
     let ended = folder.jostle("check --run example:projectile").code(0);
     assert!(ended.out.ends_with("; 4 expectations hold\n"), "{ended:?}");
     assert_eq!(folder.names(), ["fall.ron"]);

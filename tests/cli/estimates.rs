@@ -46,10 +46,10 @@ fn a_beginning_without_a_touch_tells_of_the_beginning_alone() {
     let (error, end) = (&ended["card"]["error"], ended["time"].as_f64().unwrap());
     assert!(error["horizon"].as_f64().unwrap() < 0.9 * end, "{ended}");
     let notes = ended["card"]["notes"].to_string();
-    assert!(notes.contains("nothing touches in them") && notes.contains("--estimate"), "{notes}");
+    assert!(notes.contains("in which no bodies touch") && notes.contains("--estimate"), "{notes}");
     let verdict = ended["card"]["verdict"].as_str().unwrap();
     assert!(
-        verdict.starts_with("Trust energy (") && verdict.contains("only the time before was run again"),
+        verdict.starts_with("Trust energy (") && verdict.contains("Runs with finer steps cover only the time before"),
         "{verdict}"
     );
     let ended = folder.jostle("run late.ron --json --estimate").code(0).json().remove(0);
@@ -73,7 +73,11 @@ fn what_was_not_run_again_is_not_trusted() {
         bodies: [(name: "mass", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1))],
         forces: [Spring(a: "mass", b: World, stiffness: 100, length: 0)])"#;
     let folder = Folder::new("estimate_long").with("spring.ron", spring);
-    folder.jostle("run spring.ron").code(0).says("Trust energy (").says("Use `--estimate`, which runs it all again");
+    folder
+        .jostle("run spring.ron")
+        .code(0)
+        .says("Trust energy (")
+        .says("Use `--estimate`, which repeats the whole run");
     let card = folder.jostle("run spring.ron --json").code(0).json().remove(0)["card"].clone();
     assert!(card["error"]["horizon"].as_f64().is_some_and(|until| until < 50.0), "{card}");
     folder.jostle("run spring.ron --estimate").code(0).says("Trust it: places to about ");

@@ -11,8 +11,8 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
         .jostle("run boom.ron")
         .code(3)
         .says("error: boom.ron: the run went wrong: energy came out of nowhere, ")
-        .says(" J were put in, most of it in ")
-        .says("help: the tick of 0.01 s is longer than the contacts can bear, 6.3246e-6 s, as `")
+        .says(" J that were put in, most of it in ")
+        .says("help: the tick of 0.01 s is longer than the contacts can bear. The longest stable one was 6.3246e-6 s for `")
         .says(" s: try `--tick 5e-7` or finer\n")
         .says("Do not trust it: the run went wrong: ");
     let names = ["`first`", "`second`"];
@@ -21,7 +21,7 @@ fn a_run_that_explodes_says_where_why_and_what_to_try() {
 
 /// A scene whose numbers stop being numbers.
 #[test]
-fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
+fn a_run_with_infinite_numbers_says_where_and_what_to_try() {
     Folder::new("overflow")
         .with("over.ron", OVERFLOW)
         .jostle("run over.ron")
@@ -29,14 +29,14 @@ fn a_run_with_numbers_that_are_none_says_where_and_what_to_try() {
         .says("error: over.ron: the run went wrong: the ")
         .says(" of `ball` is infinite or NaN at t = 1.")
         .says(
-            "help: numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses \
-             near zero, for drag that stops a body within a tick, for a plugin that does not book its work, or try `--tick 0.0025`\n",
+            "help: numbers grew beyond all bounds. Look for enormous speeds, forces, stiffnesses or sizes, and for masses near zero. \
+             Look for drag that stops a body within a tick, and for a plugin that does not book its work. Or try `--tick 0.0025`\n",
         );
 }
 
 /// Velocities are numbers, but their squares are not.
 #[test]
-fn a_run_whose_energy_is_no_number_ends_with_that() {
+fn a_run_whose_energy_is_infinite_ends_with_that() {
     let fast = "Scene(format: 1, clock: (duration: 1, tick: 0.001),
         bodies: [(name: \"ray\", at: (0, 0), velocity: (1e200, 0), atoms: Disc(radius: 0.1))])";
     let told = "the kinetic energy of `ray` is infinite or NaN";

@@ -69,12 +69,11 @@ fn a_film_stands_still_at_a_contact() {
 fn a_contact_that_does_not_begin_is_noted() {
     let scene = DROP.replace("film: (", r#"film: (to: 0.3, freeze: [(touch: ("ball", "floor"), for: 0.5)], "#);
     let folder = Folder::new("untouched").with("drop.ron", scene);
-    let note =
-        "note: film.freeze[0]: `ball` and `floor` do not begin to touch in the film: it does not stand still there";
+    let note = "note: film.freeze[0]: `ball` and `floor` do not begin to touch in the film, so it does not stop there";
     folder.jostle("render drop.ron").code(0).says(note).says("drop.gif: 6 frames");
     let late = DROP.replace("film: (", "film: (freeze: [(at: 3, for: 0.5)], ");
     let folder = Folder::new("late_freeze").with("drop.ron", late);
-    let message = "error: film.freeze[0].at: the film is to stand still at 3 s, but the run ends at 1 s";
+    let message = "error: film.freeze[0].at: the film is to stop at 3 s, but the run ends at 1 s";
     folder.jostle("render drop.ron").code(1).says(message).says("choose an earlier moment");
     folder.jostle("run drop.ron --quiet").code(0);
 }
@@ -114,7 +113,7 @@ fn a_film_that_cannot_be_kept_aside_says_where() {
         let output = command.env("TMPDIR", folder.path("none")).output().unwrap();
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(2), "{said}");
-        assert!(said.starts_with("error: the frames could not be kept aside in `"), "{said}");
+        assert!(said.starts_with("error: the program could not keep the frames in `"), "{said}");
         assert!(said.ends_with("or set TMPDIR to another directory\n"), "{said}");
         assert_eq!(folder.names(), ["drop.ron"]);
     }
@@ -162,7 +161,7 @@ fn a_film_is_fitted_into_a_size() {
     }
     let folder = folder.with("film.gif", "old");
     let ended = folder.jostle(&format!("{render} -o film.gif --max-size 1kB")).code(2);
-    assert!(ended.err.contains("error: the film does not fit into 1 kB: even at an eighth of its size"), "{ended:?}");
+    assert!(ended.err.contains("error: the film does not fit into 1 kB. At an eighth of its size"), "{ended:?}");
     assert_eq!(folder.read("film.gif"), b"old");
     assert_eq!(folder.names(), ["film.gif", "other.gif", "plain.gif", "roomy.gif"]);
 }

@@ -82,8 +82,11 @@ fn what_is_left_out_of_the_clock_is_named_on_the_card() {
     let fall = "Scene(format: 1, clock: (duration: 1, tolerance: 1e-5), gravity: (0, -10),
         bodies: [(name: \"ball\", at: (0, 5), atoms: Disc(radius: 0.1))])";
     let folder = Folder::new("left_out").with("free.ron", fall).with("ticks.ron", fall.replace("tolerance", "tick"));
-    let left_out = "the tolerance 1e-5 of the scene is left out: ";
-    folder.jostle("run free.ron --tick 1ms").code(0).says(&format!("{left_out}a tick was given in its place"));
+    let left_out = "the run leaves out the tolerance 1e-5 of the scene: ";
+    folder
+        .jostle("run free.ron --tick 1ms")
+        .code(0)
+        .says(&format!("{left_out}the command line gives a tick in its place"));
     folder.jostle("run free.ron --method Reference").code(0).says(&format!("{left_out}`Reference` makes the smallest"));
     folder.jostle("run ticks.ron --tolerance 1e-3").code(0).says("in place of the tick of the scene");
 }

@@ -32,7 +32,7 @@ pub const EXPLOSION: &str = r#"Scene(
     sensors: [Pose(of: "first")],
 )"#;
 
-/// Forces so large that velocities are no numbers after one tick.
+/// Forces so large that velocities are infinite after one tick.
 pub const OVERFLOW: &str = r#"Scene(
     format: 1,
     clock: (duration: 4, tick: "10 ms", method: VelocityVerlet),

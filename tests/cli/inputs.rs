@@ -62,8 +62,11 @@ fn no_file_of_several_takes_the_place_of_an_input() {
     let sweep = FALL.replace("bodies: [", "packings: [(name: \"g\", file: \"table.csv\")], bodies: [");
     let frames = scene().replace("\"cow.png\"", "\"frames/frame_7.png\"");
     let folder = folder.with("sweep.ron", sweep).with("table.csv", PACKING).with("frames.ron", frames);
-    folder.jostle("sweep sweep.ron --vary clock.tick=1ms,2ms -o .").code(2).says("`./table.csv` was read for this");
-    folder.jostle("render frames.ron -o frames/").code(2).says("`frames/frame_7.png` was read for this");
+    folder
+        .jostle("sweep sweep.ron --vary clock.tick=1ms,2ms -o .")
+        .code(2)
+        .says("`./table.csv` is an input of this command");
+    folder.jostle("render frames.ron -o frames/").code(2).says("`frames/frame_7.png` is an input of this command");
     assert_eq!(folder.read("table.csv"), PACKING.as_bytes());
 }
 

@@ -160,7 +160,7 @@ fn what_cannot_be_measured_is_told() {
     let still = FALL.replace("gravity: (0, -9.81),", "");
     assert_ne!(still, FALL);
     let folder = Folder::new("measure_wrong").with("still.ron", still).with("overflow.ron", OVERFLOW);
-    folder.jostle("measure still.ron").code(1).says("nothing moves");
+    folder.jostle("measure still.ron").code(1).says("all bodies rest");
     folder.jostle("measure nowhere.ron").code(2).says("there is no file `nowhere.ron`");
     folder.jostle("measure still.ron -o still.gif").code(2).says("a table to a .csv and a diagram to a .png");
     folder.jostle("measure still.ron -o still.ron").code(2);
@@ -226,5 +226,5 @@ fn beyond_the_horizon_means_are_compared() {
         measured["settings"].as_array().unwrap().iter().filter(|setting| setting["outcome"] == "measured").all(told)
     );
     let told = folder.jostle("measure box.ron --methods Dop853 --rungs 3 --budget 60").code(0).out;
-    assert!(told.contains("Beyond, means over time and all bodies"), "{told}");
+    assert!(told.contains("means over time and all bodies. There,"), "{told}");
 }

@@ -73,8 +73,8 @@ fn a_new_plugin_may_be_built_against_a_checkout() {
 #[test]
 fn nothing_is_overwritten() {
     let folder = Folder::new("new_twice").with("mine.ron", "mine").with("band/notes", "mine");
-    folder.jostle("new scene mine").code(2).says("`mine.ron` is there already");
-    folder.jostle("new plugin band").code(2).says("`band` is there already");
+    folder.jostle("new scene mine").code(2).says("`mine.ron` exists already");
+    folder.jostle("new plugin band").code(2).says("`band` exists already");
     assert_eq!(folder.read("mine.ron"), b"mine");
     assert_eq!(folder.names(), ["band", "mine.ron"]);
     assert!(!folder.has("band/Cargo.toml"));

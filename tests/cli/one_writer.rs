@@ -159,7 +159,7 @@ fn a_name_as_long_as_names_may_be_is_written() {
 fn a_new_scene_does_not_follow_links() {
     let folder = Folder::new("new_link");
     std::os::unix::fs::symlink("elsewhere.ron", folder.path("mine.ron")).unwrap();
-    folder.jostle("new scene mine").code(2).says("`mine.ron` is there already");
+    folder.jostle("new scene mine").code(2).says("`mine.ron` exists already");
     assert_eq!(folder.names(), ["mine.ron"]);
 }
 

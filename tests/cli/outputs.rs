@@ -24,9 +24,9 @@ fn the_ending_tells_the_format() {
         assert!(folder.read(picture).starts_with(b"\x89PNG\r\n"), "{picture}");
     }
     assert!(!folder.has("c/frame_00002.png"));
-    let message = "error: the ending of `e.avi` names no format: .gif, .apng, .mp4 and .webm are films, .png is one \
-                   picture (with --at, --strip or --sheet), / a directory of pictures, .rgba or the name - (standard \
-                   output) raw pictures\n";
+    let message = "error: the ending of `e.avi` names no format. .gif, .apng, .mp4 and .webm are films. .png is one \
+                   picture, with --at, --strip or --sheet. A / at the end means a directory of pictures. .rgba or the name - \
+                   (standard output) means raw pictures\n";
     assert_eq!(folder.jostle("render fall.ron -o e.avi").code(2).err, message);
     folder
         .jostle("render fall.ron -o e.png")
@@ -55,7 +55,7 @@ fn several_scenes_go_into_a_directory() {
 fn two_scenes_of_one_name_do_not_overwrite_each_other() {
     let folder = Folder::new("twins").with("a/fall.ron", FALL).with("b/fall.ron", FALL);
     for output in ["-o films/", ""] {
-        let message = "error: `a/fall.ron` and `b/fall.ron` would both be written to `";
+        let message = "error: `a/fall.ron` and `b/fall.ron` would both go to `";
         folder.jostle(&format!("render a/fall.ron b/fall.ron {output}")).code(2).says(message);
     }
     folder.jostle("render a/fall.ron a/fall.ron -o films/").code(2).says("error: `a/fall.ron` is named twice\n");
@@ -111,7 +111,7 @@ fn devices_and_directories_are_no_targets() {
 fn pictures_of_an_earlier_sequence_are_mentioned() {
     let folder = Folder::new("left_over").with("fall.ron", FALL);
     folder.jostle("render fall.ron -o frames/ --quiet").code(0);
-    folder.jostle("render fall.ron -o frames/ --duration 0.1").code(0).says("still stand 1 picture of an earlier");
+    folder.jostle("render fall.ron -o frames/ --duration 0.1").code(0).says("note: 1 picture of an earlier");
 }
 
 #[test]
@@ -137,5 +137,5 @@ fn the_film_does_not_depend_on_threads() {
 fn a_still_breaks_no_expectation_of_later_times() {
     let folder = Folder::new("early");
     folder.jostle("render example:kepler --at 1 --size 64x36 --quiet").code(0);
-    folder.jostle("run example:kepler --duration 1").code(1).says("the run ended before it could be judged");
+    folder.jostle("run example:kepler --duration 1").code(1).says("the run ended too early to judge it");
 }

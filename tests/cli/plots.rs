@@ -119,7 +119,7 @@ fn patterns_of_quantities_are_those_of_tables() {
     }
     folder.jostle("plot fly.ron --channels ball.nowhere.*").code(2).says("nowhere");
     let table = folder.with("gaps.csv", "time,a\n0,1\n1,nan\n2,inf\n3,\n");
-    table.jostle("plot gaps.csv").code(0).says("note: a: 3 of 4 cells hold no finite number");
+    table.jostle("plot gaps.csv").code(0).says("note: a: 3 of 4 cells are empty, NaN or infinite");
 }
 
 #[test]

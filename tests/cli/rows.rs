@@ -30,7 +30,7 @@ fn rows_stand_at_the_ticks_nearest_to_their_moments() {
 fn more_rows_than_ticks_are_told() {
     let folder = Folder::new("rows_many").with("fall.ron", FALL);
     let ended = folder.jostle("run fall.ron -o rows.csv --fps 5000").code(0);
-    ended.says("note: --fps 5000 asks for more rows than there are ticks: there is one at each tick, every 0.001 s");
+    ended.says("note: --fps 5000 asks for more rows than the run has ticks. Each tick gives one row, every 0.001 s");
     assert_eq!(rows(&folder, "--fps 5000").len(), 201);
     folder.jostle("run fall.ron --fps 100").code(2).says("--output");
     folder.jostle("run fall.ron -o rows.csv --fps 0").code(2).says("expected rows for each second of physics");

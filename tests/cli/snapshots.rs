@@ -124,7 +124,7 @@ fn one_new_file_of_two_names_is_refused() {
     }
     for pair in pairs {
         let ended = folder.jostle(&format!("{run} {pair}")).code(2);
-        assert!(ended.err.contains("is written by this command already"), "{pair}: {}", ended.err);
+        assert!(ended.err.contains("this command writes `"), "{pair}: {}", ended.err);
         assert!(!whole.exists(), "{pair}");
     }
 }

@@ -45,7 +45,7 @@ fn check_finds_what_render_refuses() {
         ("bad", "look: (theme: \"bad.ron\"), ", "look.theme: `bad.ron` is no theme: "),
         ("slow", "film: (speed: 1e-9), ", "film: 0.2 s of physics would be 6e9 frames, more than 1000000"),
         ("late", "film: (from: 0.3), ", "film.from: the film begins at 0.3 s, but the run ends at 0.2 s"),
-        ("still", "film: (freeze: [(at: 0.3, for: 1)]), ", "film.freeze[0].at: the film is to stand still at 0.3 s"),
+        ("still", "film: (freeze: [(at: 0.3, for: 1)]), ", "film.freeze[0].at: the film is to stop at 0.3 s"),
     ] {
         let scene = FALL.replace("film: (fps: 10, size: (64, 36)),", "").replace("gravity", &format!("{film}gravity"));
         std::fs::write(folder.path(&format!("{name}_.ron")), scene).unwrap();

@@ -40,7 +40,7 @@ fn a_killed_sweep_goes_on_where_it_was() {
     let ended = folder.jostle(&format!("{SWEEP} --json")).code(0);
     let again = ended.json().len();
     assert!((20..27).contains(&again), "{again} runs were made again");
-    assert!(ended.err.contains("the sweep goes on where it was interrupted"), "{ended:?}");
+    assert!(ended.err.contains("the sweep makes only the others"), "{ended:?}");
     assert!(folder.read("out/table.csv") == whole);
     assert!(!folder.has("out/table.runs"));
 }
@@ -120,7 +120,7 @@ fn a_shard_that_was_cut_or_changed_is_found_out() {
 fn what_is_no_table_of_a_shard_is_told_at_once() {
     let folder = Folder::new("shards_odd").with("fall.ron", FALL).with("many/table.1-of-99999999999.csv", "");
     let ended = folder.jostle("sweep --merge many").code(2);
-    assert!(ended.err.contains("these are missing: 2, 3, 4") && ended.err.contains(" and more"), "{ended:?}");
+    assert!(ended.err.contains("these are absent: 2, 3, 4") && ended.err.contains(" and more"), "{ended:?}");
     std::fs::create_dir(folder.path("pipe")).unwrap();
     let pipe = folder.path("pipe/table.1-of-1.csv");
     assert!(std::process::Command::new("mkfifo").arg(&pipe).status().unwrap().success());

@@ -13,11 +13,11 @@ const BOUNCE: &str = r#"Scene(
     bodies: [(name: "ball", at: (0, 0.3), material: "rubber", atoms: Disc(radius: 0.1, mass: 1))],
 )"#;
 
-const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks: below 10 its impact is not \
-                     resolved; use --tick ";
-const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s that the contacts of `ball` had at t = ";
-const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s and may have passed \
-                   through others unseen; use --tick ";
+const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks. The run does not resolve an impact of \
+                     fewer than 10. Use --tick ";
+const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s. The contacts of `ball` set it at t = ";
+const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s. It may have passed through \
+                   others unseen. Use --tick ";
 
 /// Runs with a tick; the warning is told in a line, and as a note in the JSON.
 #[track_caller]
@@ -59,7 +59,7 @@ fn the_advised_tick_helps() {
     for tick in ["5ms", "25ms"] {
         let ended = folder.jostle(&format!("run bounce.ron --tick {tick}"));
         let line = ended.err.lines().find(|line| line.starts_with("warning: ")).unwrap();
-        let advice = line.split("use --tick ").nth(1).unwrap();
+        let advice = line.split("Use --tick ").nth(1).unwrap();
         let again = folder.jostle(&format!("run bounce.ron --tick {advice}")).code(0);
         assert!(!again.err.contains("warning: "), "{again:#?}");
     }
@@ -97,7 +97,7 @@ fn the_advice_suits_the_run() {
     let said = |flags: &str| folder.jostle(&format!("run bounce.ron {flags}")).code(0).err;
     let euler = said("--method ExplicitEuler --duration 0.3");
     assert!(
-        euler.contains("use --method VelocityVerlet") && euler.contains("Use `--method VelocityVerlet`."),
+        euler.contains("Use --method VelocityVerlet") && euler.contains("Use `--method VelocityVerlet`."),
         "{euler}"
     );
     assert!(euler.contains("(none is stable)") && !euler.contains("--tick"), "{euler}");

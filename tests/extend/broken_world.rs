@@ -85,7 +85,7 @@ fn a_resource_that_ticks_need_is_named_when_it_is_gone() {
                 let failure = ran.expect_err(message);
                 assert!(matches!(failure.wrong, FailureKind::Gone(_)), "{failure:?}");
                 let said = failure.to_string();
-                assert!(said.contains(message) && said.contains("put it back"), "{said}");
+                assert!(said.contains(message) && said.contains("Put it back"), "{said}");
                 assert_eq!(simulation.failure(), Some(&failure));
                 if simulation.contains_resource::<State>() {
                     ask_everything(&mut simulation);
@@ -266,7 +266,7 @@ fn bodies_may_go_at_any_time() {
 
 /// A component that holds NaN or an infinite number ends the run with the name of the body.
 #[test]
-fn numbers_that_are_none_are_told() {
+fn nan_and_infinite_values_are_told() {
     for clock in CLOCKS {
         for wrong in [f64::NAN, f64::INFINITY, -f64::INFINITY] {
             for spoil in [

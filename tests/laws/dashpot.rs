@@ -183,7 +183,7 @@ fn less_restitution_than_can_be_converted_is_said_on_the_card() {
         let ratio = ratio_of(LEAST_RESTITUTION);
         assert_near("restitution", found.restitution, LEAST_RESTITUTION, bound(METHODS[1], ratio, step));
         let told =
-            |note: &String| note.contains("Dashpot cannot give the restitution") && note.contains("0.01 is used");
+            |note: &String| note.contains("Dashpot cannot give the restitution") && note.contains("and gives 0.01");
         assert!(found.card.notes.iter().any(told), "{:?}", found.card.notes);
     }
 }
@@ -418,7 +418,7 @@ fn under_dashpot_restitution_falls_with_the_number_of_atoms_that_land() {
     let notes = load(&format!("Scene(format: 1, clock: (duration: 1, tick: 1e-3), {row}")).card().notes;
     assert!(
         notes.iter().any(|note| note
-            .contains("a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times")),
+            .contains("A body that lands on n atoms at once rebounds less. Its damping ratio is up to sqrt(n) times")),
         "{notes:?}"
     );
 }

@@ -57,7 +57,7 @@ fn the_error_of_the_beginning_is_that_until_then() {
         omega * omega
     );
     let card = estimated(&text, EstimateRequest::default());
-    assert!(card.notes.iter().any(|note| note.contains("runs it all again")), "{:?}", card.notes);
+    assert!(card.notes.iter().any(|note| note.contains("With --estimate they cover all")), "{:?}", card.notes);
     let error = card.error.unwrap();
     let (found, until) = (error.position.discretisation.unwrap(), error.horizon.unwrap());
     assert!(until < duration / 2.0, "{until}");

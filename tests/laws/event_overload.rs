@@ -75,7 +75,7 @@ fn overloaded_scenes_stay_finite_and_their_energy_closes() {
             assert_near(&what, residual, 0.0, 10.0 * rounding);
         }
         // It is told on the card.
-        let told = card.notes.iter().any(|note| note.contains("too many to locate"));
+        let told = card.notes.iter().any(|note| note.contains("too many events to locate"));
         assert_eq!(told, found, "{what}: {:?}", card.notes);
     }
 }

@@ -162,7 +162,7 @@ fn accounts_of_mechanisms_close_under_dop853() {
         let residual = card.energy.residual.abs();
         println!("{}: {residual:.1e} J of {bound:.1e} J, {largest:.1e} J", problem.name);
         assert!(residual <= bound, "{}: {residual:e} J of {bound:e} J", problem.name);
-        let told = card.notes.iter().any(|note| note.contains("follow from others"));
+        let told = card.notes.iter().any(|note| note.contains("repeat constraints of others"));
         assert_eq!(told, problem.name == "parallelogram", "{}: {:?}", problem.name, card.notes);
     }
 }

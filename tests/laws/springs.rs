@@ -84,7 +84,7 @@ fn the_chosen_tick_and_the_warning_know_springs() {
     let mut simulation = load(&held("VelocityVerlet", "tick: 0.004,"));
     simulation.run_to_tick(2).expect("numbers stay finite");
     let card = simulation.card();
-    let warned = card.warnings.iter().any(|warning| warning.contains("that the springs of `block` had"));
+    let warned = card.warnings.iter().any(|warning| warning.contains("The springs of `block` set it"));
     assert!(
         warned && card.verdict.contains("longer than the springs can bear"),
         "{:?} {}",

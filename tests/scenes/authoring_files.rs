@@ -245,7 +245,7 @@ fn names_in_a_template_are_those_of_its_file() {
         assert_eq!(mass(&made, name), mass(&Source::new("a.ron", by_hand), name), "{name}");
     }
     let notes = Simulation::load(&made).unwrap().header().remarks.clone();
-    assert!(notes.iter().any(|note| note.contains("the template `push` makes nothing called \"h*\"")), "{notes:?}");
+    assert!(notes.iter().any(|note| note.contains("the template `push` makes no \"h*\"")), "{notes:?}");
 }
 
 /// A file that is good alone is good under a prefix too, also with patterns over what several entries of `fill` make and

@@ -72,7 +72,9 @@ fn what_a_drawing_became_is_noted() {
         Simulation::load(&scene(&folder, "Svg(file: \"part.svg\", unit: 0.1, tolerance: \"1 mm\")")).unwrap();
     let note = simulation.header().remarks.iter().find(|note| note.starts_with("part.svg: ")).expect("a note");
     // Half a round with a radius of 0.1 m needs 12 chords: its area is less by the share 1.1 % of a tenth of it.
-    for words in ["1 outline of", "convex part", "to within 0.001 m", "% of the area is lost", "left out: text"] {
+    for words in
+        ["1 outline of", "convex part", "within 0.001 m of the curves", "% of the area is lost", "Not read: text"]
+    {
         assert!(note.contains(words), "{note}");
     }
 }
@@ -89,7 +91,7 @@ fn a_drawing_that_is_no_shape_is_refused() {
     for (body, fields, words) in [
         (square, "file: \"path.svg\", height: 1", "there is no file `path.svg`"),
         (square, "file: \"part.svg\"", "the field `height` or `unit` is missing"),
-        (square, "file: \"part.svg\", height: 1, unit: 1", "cannot both be given"),
+        (square, "file: \"part.svg\", height: 1, unit: 1", "exclude each other"),
         (square, "file: \"part.svg\", height: -1", "must be above zero"),
         (square, "file: \"part.svg\", height: 1, scale: 2", "scale"),
         (square, "file: \"part.svg\", height: 1, outlines: []", "outlines"),

@@ -36,16 +36,15 @@ fn the_deepest_overlap_is_told_with_names_and_remedy() {
     assert_eq!(
         notes(&pair),
         [
-            "at the start `a` and `b` overlap by 0.25 m, 50 % of the smaller radius: their contacts begin compressed and push \
-             bodies apart that no load holds; if that is not meant, move them apart, make them smaller, or give them `collides: false`"
+            "at the start `a` and `b` overlap by 0.25 m, 50 % of the smaller radius. Their compressed contacts push bodies apart, \
+             unless a load presses them together. To prevent it, move them apart, make them smaller, or give them `collides: false`"
         ]
     );
     // A clump is one body however many of its atoms overlap, and a wall counts as well.
     let more = "(name: \"clump\", at: (1, 6.5), atoms: Picture(spacing: 2, rows: [\"##\"])),
         (name: \"under\", at: (1, 4.75), atoms: Picture(spacing: 2, rows: [\"##\"]))], walls: [(name: \"wall\", left: (0, 7.25), right: (9, 7.25))]";
     let [note] = &notes(&pair.replace(']', more))[..] else { panic!("one note") };
-    let begins =
-        "at the start 3 pairs overlap by more than 5 % of the smaller radius, deepest `a` and `b` by 0.25 m (50 %): ";
+    let begins = "at the start 3 pairs overlap by more than 5 % of the smaller radius. The deepest are `a` and `b` by 0.25 m (50 %). ";
     assert!(note.starts_with(begins), "{note}");
 }
 

@@ -25,31 +25,31 @@ const GAS_TEXT: &str = include_str!("gas.ron");
 #[derive(Args, Debug)]
 #[command(after_help = EXAMPLES)]
 pub(super) struct Bench {
-    /// Scene files, or example:NAME for scenes that come with the program. Without any: example:tetris and bench:gas, two
+    /// Scene files, or example:NAME for scenes that come with the program. Default: example:tetris, and bench:gas with two
     /// thousand discs
     #[arg(value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Ticks of a round. Default: as many as take about a fifth of a second, but at least 50, within the duration of the scene
+    /// Ticks of a round. Default: as many as take about a fifth of a second, and at least 50. The duration of the scene limits it
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     ticks: Option<u64>,
-    /// Rounds that are timed. Default: 7, with --quick 3
+    /// Time so many rounds. Default: 7, or 3 with --quick
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=10_000))]
     rounds: Option<u32>,
-    /// Short rounds: a first look
+    /// Make rounds short, for a first look
     #[arg(long)]
     quick: bool,
-    /// Seconds of physics that the engine runs before anything is measured, such as 0.5 or 20ms: until a heap has settled, say
+    /// Begin to measure after this time of the physics, such as 0.5 or 20ms, when a heap has settled
     #[arg(long, value_name = "T", value_parser = flags::moment, default_value = "0", allow_negative_numbers = true)]
     from: f64,
     #[command(flatten)]
     overrides: OverrideFlags,
-    /// Threads for the work of a tick, if there is enough of it; the results are the same to the bit
+    /// Share the work of a tick among so many threads, if there is enough of it. The results are the same to the bit
     #[arg(long, value_name = "N", value_parser = flags::threads, default_value = "1", allow_negative_numbers = true)]
     threads: usize,
-    /// Print what was measured of each scene as one line of JSON on standard output
+    /// Print the measurement of each scene as one line of JSON on standard output
     #[arg(long)]
     json: bool,
-    /// Print how many bytes it takes to read and run the one scene, for another process that asks
+    /// Print the bytes that reading and running the one scene takes, for another process that asks
     #[arg(long, hide = true)]
     memory: bool,
 }
@@ -67,10 +67,10 @@ Examples:
 Paths of the examples are from the root of the source repository.
 
 The columns of the table:
-  bodies, atoms     what it holds
-  near, touching    pairs of atoms near each other, which each tick looks at; those that overlap
+  bodies, atoms     the counts of bodies and atoms in the scene
+  near, touching    pairs of atoms near each other, which each tick looks at; pairs that overlap
   us/tick           microseconds of a tick: the median over the rounds
-  ns/atom           the same in nanoseconds for each atom
+  ns/atom           nanoseconds of a tick for each atom
   scatter           from the fastest round to the slowest, as a share of the median
   plain             ns/atom of a plain loop in the same program: arrays, a grid of cells, springs
                     with dashpots and friction, velocity Verlet, no vector instructions; a dash
@@ -79,9 +79,9 @@ The columns of the table:
   bytes/atom        memory to read and run the scene, for each atom, if the system tells it; a
                     dash below 1000 atoms, as the program itself takes more
 
-The engine and the plain loop begin at the same state and run by turns. The first round is not timed. Each round goes on \
-from the end of the round before it. Times depend on your computer, the state hash does not. It depends on \
---ticks, --rounds, --quick and --from.";
+The engine and the plain loop begin at the same state and run by turns. The command does not time the first round. Each round goes \
+on from the end of the round before it. Times depend on your computer. The state hash depends only on --ticks, --rounds, --quick \
+and --from.";
 
 impl Bench {
     pub(super) fn execute(self) -> Exit {

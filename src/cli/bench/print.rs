@@ -85,7 +85,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             ]
         }),
     );
-    text.push_str("\nWhere the time goes:\n");
+    text.push_str("\nThe shares of the time:\n");
     let width = rows.iter().map(|row| row.name.len()).max().unwrap_or(0);
     for row in rows {
         let told = row.measured.stages.iter().filter(|(_, share)| *share >= SMALLEST_SHARE);
@@ -96,7 +96,7 @@ pub(super) fn table(rows: &[Row]) -> String {
             let _ = writeln!(text, "{:<width$}  {}", row.name, shares.join(", "));
         }
     }
-    text.push_str("\nWhat came out:\n");
+    text.push_str("\nThe results of the runs:\n");
     text.push_str(&aligned(
         &["scene", "ticks", "tick in s", "energy residual in J", "share of the energy", "state hash"],
         rows.iter().map(|row| {

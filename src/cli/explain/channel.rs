@@ -78,7 +78,9 @@ pub(super) fn parts(what: &str, registry: &SceneRegistry) -> Option<String> {
     let first = names.iter().find(|name| name.contains(".position")).or(names.first())?;
     let first = first.trim_matches('`');
     let all = names.join(", ");
-    Some(format!("`{what}` is a part of the names of channels: {all}. `jostle explain {first}` tells more of one."))
+    Some(format!(
+        "`{what}` is a part of the names of channels: {all}. `jostle explain {first}` tells more of this one."
+    ))
 }
 
 /// Explains a channel of a scene.

@@ -41,11 +41,11 @@ Examples:
   jostle explain critical tick      what a word on the error card means
   jostle explain kinetic            what a channel is, its unit, and the sensor that gives it
   jostle explain example:bounce elastic.position.y
-                                    the same of a channel of a scene
-  jostle explain threads            what a flag does, and which commands have it
+                                    the meaning of a channel of a scene
+  jostle explain threads            the meaning of a flag, and the commands that have it
 
-A scene is run twice: for half a second as it is, and for up to three seconds with a look at the clock around each stage. \
-Both runs begin at the start of the scene. The output says how much of it they covered.";
+The command runs a scene twice. The first run takes half a second. The second one takes up to three seconds, and reads the \
+clock around each stage. Both runs begin at the start of the scene. The output says how much of it they covered.";
 
 impl Explain {
     pub(super) fn execute(self) -> Exit {

@@ -51,7 +51,7 @@ pub(super) fn explain(what: &str) -> Exit {
         let near = near.map_or_else(String::new, |near| format!("did you mean `{near}`? "));
         say(&format!(
             "error: there is no name `{what}`\nhelp: {near}`jostle list sections`, `jostle list forces` and so on show all \
-             names; flags and the words of the error card can be asked for too, such as `jostle explain critical tick`"
+             names. Flags and words of the error card have explanations too, such as `jostle explain critical tick`"
         ));
         return Exit::Usage;
     }
@@ -107,15 +107,15 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
     names.extend(Theme::names());
     if let Some(theme) = Theme::names().into_iter().find(|theme| same(theme)) {
         found.push(format!(
-            "{theme} is a theme: look: (theme: {theme:?}), or --theme {theme}; `jostle list themes` shows the others"
+            "{theme} is a theme: look: (theme: {theme:?}), or --theme {theme}. `jostle list themes` shows the others"
         ));
     }
     for method in app.world().get_resource::<Methods>().map_or(&[][..], |methods| &methods.0) {
         names.push(method.name);
         if same(method.name) {
             found.push(format!(
-                "{} is an integration method of order {}, stable while omega dt < {} (omega: the angular frequency of the \
-                 stiffest spring).\nFor example: clock: (duration: 10, tick: \"1 ms\", method: {})",
+                "{} is an integration method of order {}. It is stable while omega dt < {}, with the angular frequency omega \
+                 of the stiffest spring.\nFor example: clock: (duration: 10, tick: \"1 ms\", method: {})",
                 method.name, method.order, method.stability_limit, method.name
             ));
         }
@@ -129,7 +129,7 @@ fn look_up(what: &str, app: &App) -> (Vec<String>, Vec<String>) {
     for list in registry.word_lists().into_iter().filter(|list| ![QUANTITIES, CHANNELS].contains(list)) {
         let word = registry.words(list).into_iter().find(|word| same(word));
         if let Some(word) = word.filter(|_| found.is_empty()) {
-            found.push(format!("{word} is a {list}; `jostle list` shows the others"));
+            found.push(format!("{word} is a {list}. `jostle list` shows the others"));
         }
     }
     let flags = flag::all();

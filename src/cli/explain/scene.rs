@@ -20,9 +20,9 @@ use crate::tick::Failure;
 use crate::tick::State;
 use crate::tick::stopwatch::{self, TickPart};
 
-/// How long a scene is run as it is, to learn how much a look at the clock costs.
+/// The duration of the run without looks at the clock, which gives their cost.
 const PLAIN: Duration = Duration::from_millis(500);
-/// How long it is run with a look at the clock around each stage, as far as it goes.
+/// The longest duration of the run with looks at the clock around each stage.
 const WATCHED: Duration = Duration::from_millis(2500);
 /// Fewer ticks have no first and last tenth to be compared.
 const FEWEST_TICKS: u64 = 100;
@@ -38,13 +38,13 @@ pub(super) struct Anatomy {
     all_ticks: u64,
     atoms: usize,
     pairs: (usize, usize),
-    /// How pairs were searched, and for how many evaluations their lists held in the mean.
+    /// The search for pairs, and the mean number of evaluations for which its lists held.
     search: Option<(&'static str, f64)>,
     /// Seconds per tick of a run without looks at the clock.
     per_tick: f64,
     /// The same in the first and in the last tenth of the ticks; nothing, if they are few.
     tenths: Option<[f64; 2]>,
-    /// How much longer a tick takes when it is watched, as a share.
+    /// The cost of looks at the clock, as a share of a tick.
     slower: f64,
     parts: Vec<Stage>,
     failure: Option<String>,
@@ -113,7 +113,7 @@ impl Anatomy {
         })
     }
 
-    /// Which part of the run the numbers are of.
+    /// The part of the run to which the numbers belong.
     fn looked_at(&self) -> String {
         let (ticks, all) = (self.ticks, self.all_ticks);
         if ticks == all {
@@ -143,7 +143,7 @@ impl Anatomy {
             row("failed", failure);
         }
         let width = self.named.iter().map(|named| named.name.len()).max().unwrap_or(0);
-        let _ = writeln!(text, "\nWhat it names, and the module that reads it:");
+        let _ = writeln!(text, "\nThe names in the scene, and the modules that read them:");
         for Named { name, from } in &self.named {
             let _ = writeln!(text, "  {name:<width$}  {from}");
         }
@@ -165,13 +165,13 @@ impl Anatomy {
             let _ = writeln!(text, "  The first tenth of these ticks took {first} us each, the last tenth {last} us.");
         }
         if self.ticks < self.all_ticks && self.failure.is_none() {
-            let _ = writeln!(
-                text,
-                "  Later ticks were not looked at, and may cost more or less: `jostle run` takes them all."
-            );
+            let _ = writeln!(text, "  Later ticks may cost more or less: `jostle run` takes them all.");
         }
         if let Some((search, lasted)) = self.search {
-            let _ = writeln!(text, "  Pairs are found by {search}; a list lasted {lasted:.0} evaluations in the mean.");
+            let _ = writeln!(
+                text,
+                "  The search for pairs is {search}. A list lasted {lasted:.0} evaluations in the mean."
+            );
         }
         let _ = writeln!(text, "  {:<20}{:>7}{:>12}   systems, in order", "stage", "share", "us");
         for Stage { name, share, systems } in &self.parts {
@@ -185,7 +185,7 @@ impl Anatomy {
         }
         let _ = writeln!(
             text,
-            "Looking at the clock around each stage made the ticks {:.0} % slower; the shares are those of that run.",
+            "Looking at the clock around each stage made the ticks {:.0} % slower. The shares are those of that run.",
             self.slower * 100.0
         );
         text
@@ -222,7 +222,7 @@ impl Anatomy {
     }
 }
 
-/// How long a batch of ticks takes at least, between two marks.
+/// The least duration of a batch of ticks, between two marks.
 const BATCH: Duration = Duration::from_millis(3);
 
 /// Runs until a tick, or until the scene or the time is over. On the way it marks ticks and seconds spent.
@@ -336,7 +336,7 @@ fn known_in(simulation: &Simulation) -> Vec<(String, RegisteredName)> {
 fn stages(world: &World, known: &[(String, RegisteredName)]) -> Vec<Stage> {
     let Some(watch) = world.resource::<State>().stopwatch() else { return Vec::new() };
     let spent = |part: TickPart| watch.spent(part).as_secs_f64();
-    // Nothing runs between two ticks, except the loop, so that time belongs to no stage.
+    // Between two ticks only the loop runs, so that time belongs to no stage.
     let in_ticks = |part: &TickPart| *part != TickPart::Between;
     let all: f64 = TickPart::ALL.into_iter().filter(in_ticks).map(spent).sum();
     let systems = stopwatch::systems(world);

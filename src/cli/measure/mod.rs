@@ -28,16 +28,17 @@ pub(super) struct Measure {
     /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE")]
     scene: String,
-    /// Write what was measured: a table (.csv) or a work-precision diagram (.png); may be given several times
+    /// Write the measurement: a table (.csv) or a work-precision diagram (.png). The flag may stand several times
     #[arg(short, long, value_name = "FILE")]
     output: Vec<PathBuf>,
-    /// Seconds that it may take in all, about
+    /// Take about this time in seconds
     #[arg(long, value_name = "SECONDS", value_parser = flags::above_zero, default_value = "20", allow_negative_numbers = true)]
     budget: f64,
-    /// Ticks that each method tries at the most, longer ones than the first apart. Default: as many as the budget allows
+    /// Try at most so many ticks with each method. Ticks longer than its first one do not count. Default: as many as the budget
+    /// allows
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..))]
     rungs: Option<u16>,
-    /// Methods to measure, separated by commas. Default: all
+    /// Measure these methods, separated by commas. Default: all
     #[arg(long, value_name = "A,B,..", value_delimiter = ',', value_parser = flags::registered_methods())]
     methods: Vec<String>,
     /// The measure of cost: time on this computer, or evaluations of all forces, the same on every computer
@@ -46,7 +47,7 @@ pub(super) struct Measure {
     /// Seconds of physics, instead of the scene's
     #[arg(long, value_name = "T", value_parser = flags::above_zero, allow_negative_numbers = true)]
     duration: Option<f64>,
-    /// Give a parameter of the scene (`params`) another value: a number or an expression; may be given several times
+    /// Give a parameter of the scene (`params`) another value: a number or an expression. The flag may stand several times
     #[arg(long = "set", value_name = "NAME=VALUE", value_parser = flags::setting)]
     settings: Vec<(String, String)>,
     /// Size of the diagram in pixels
@@ -55,7 +56,7 @@ pub(super) struct Measure {
     /// Colours of the diagram
     #[arg(long, value_name = "NAME", value_parser = clap::builder::PossibleValuesParser::new(Theme::names()))]
     theme: Option<String>,
-    /// Print what was measured as one line of JSON on standard output
+    /// Print the measurement as one line of JSON on standard output
     #[arg(long)]
     json: bool,
 }
@@ -74,22 +75,23 @@ Examples:
   jostle measure example:bounce --methods VelocityVerlet,Dop853 --rungs 4
   jostle measure example:kepler --cost evaluations --json    a cost that is the same on every computer, for a program
 
-A reference run comes first: Dop853 with located events. A coarser run and a run that begins a hair beside tell its own error. \
-Then each method runs the scene with ticks from about twice the critical one down by factors of two. The cheapest run of all \
+A reference run comes first: Dop853 with located events. Two more runs give its own error: one with a greater tolerance, and one \
+that begins very near to it. Then each method runs the scene with ticks from about twice the critical one down by factors of \
+two. The cheapest run of all \
 is always next. A method ends if its error is that of the reference, and all end if the budget is used up. If the first tick of a \
 method does well, the method tries longer ones too.
 
-An error is a share of the motion, the greater one of two. The first is the greatest distance of any point of a body from \
-the reference, at up to a hundred moments, over how far the body goes. The second is the root mean square over these \
-moments by which its velocity differs, over how fast the body is. No error below three times that of the reference \
-is claimed: `<` marks such errors. If the motion is chaotic, runs are compared as long as the reference knows it, and the output \
-says until when. After that, means over the rest of the run and all bodies are compared (`beyond`).
+An error is a share of the motion, the greater one of two, from up to a hundred moments. The first is the greatest distance \
+of any point of a body from the reference, over how far the body goes. The second is the root mean square of the difference \
+of its velocity, over how fast the body is. The sign `<` marks errors below three times that of the \
+reference, which are not known better. If the motion is chaotic, the command compares runs until the reference loses it, and \
+names this time. For the rest of the run, it compares means over time and over all bodies (`beyond`).
 
 The cost is the time of the fastest of three to nine runs that do nothing else. A star marks settings that no other setting \
 beats: none is more exact for less.
 
-Exit codes: 0 good, 1 the scene is wrong or nothing in it moves, 2 usage or the budget is too short for the reference run, \
-3 the reference run or all settings go wrong. Even then, the output tells all that was measured.";
+Exit codes: 0 good, 1 the scene is wrong or all its bodies rest, 2 the command line is wrong or the budget is too short for the \
+reference run, 3 the reference run or all settings go wrong. Even then, the output has all measurements.";
 
 impl Measure {
     pub(super) fn execute(self) -> Exit {
@@ -169,13 +171,13 @@ impl Measure {
         if exit == Exit::RunWrong {
             say(&match &measured.reference {
                 Err(NoReference::Failed(failure)) => format!(
-                    "error: the reference run goes wrong: {failure}; without it no error is known. Softer contacts, heavier bodies or weaker \
-                     forces help; `jostle run {}` tells more",
+                    "error: the reference run goes wrong: {failure}. Without it no error is known. Softer contacts, heavier \
+                     bodies or weaker forces help. `jostle run {}` tells more",
                     self.scene
                 ),
                 _ => format!(
-                    "error: no setting comes to the end of the scene; softer contacts, heavier bodies or a larger --budget for \
-                     shorter ticks help; `jostle run {}` tells more",
+                    "error: no setting comes to the end of the scene. Softer contacts, heavier bodies or a larger --budget \
+                     for shorter ticks help. `jostle run {}` tells more",
                     self.scene
                 ),
             });
@@ -206,19 +208,19 @@ impl Measure {
             NoReference::Still => request.refuse(
                 Exit::SceneWrong,
                 "bodies",
-                "nothing moves, so there is nothing to measure: errors are shares of the motion",
+                "all bodies rest, and errors are shares of the motion",
                 "give a body a velocity or a force, or measure a longer run with --duration",
             ),
             NoReference::Short(needed) => {
                 let needed = number(format!("{needed:.0e}").parse().unwrap_or(*needed));
                 let message = format!("--budget {} s is too short for the reference run", number(self.budget));
-                let help = format!("about {needed} s are needed: --budget {needed}, or a shorter run with --duration");
+                let help = format!("it needs about {needed} s: --budget {needed}, or a shorter run with --duration");
                 request.refuse(Exit::Usage, "", &message, &help)
             }
             NoReference::Parts => request.refuse(
                 Exit::RunWrong,
                 "",
-                "reference runs with different steps part before anything can be compared: no place of a body is known",
+                "reference runs with different steps go apart before the first moment of comparison: no place of a body is known",
                 "a shorter run with --duration and closer moments, or a larger --budget for finer steps",
             ),
             NoReference::Failed(failure) => request.refuse(

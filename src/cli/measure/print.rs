@@ -25,12 +25,12 @@ fn error_in_words(measured: &Measured, setting: &Setting) -> String {
     }
 }
 
-/// How far it is from the reference, in m and m/s.
+/// Its distance from the reference, in m and m/s.
 fn apart(setting: &Setting) -> Option<(f64, f64)> {
     if let SettingOutcome::Measured(Deviation { apart, .. }) = setting.outcome { apart } else { None }
 }
 
-/// How it came out, in a word.
+/// Its outcome, in a word.
 fn word(setting: &Setting) -> &'static str {
     match setting.outcome {
         SettingOutcome::Measured(_) => "measured",
@@ -103,7 +103,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
             ]
         }),
     );
-    text.push_str("\nWhere the ladder of ticks ends:\n");
+    text.push_str("\nThe end of the ladder of ticks:\n");
     let ends = measured.settings.ends.iter().map(|(course, why)| vec![course.method.to_owned(), why.clone()]);
     let ends = aligned(&["method", ""], ends);
     text.push_str(ends.split_once('\n').map_or("", |(_, rest)| rest));
@@ -119,7 +119,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
         Ok(reference) => {
             let _ = writeln!(
                 text,
-                "Reference: {}; its own error is about {:.0e} at most, and no error below {:.0e} is claimed.",
+                "Reference: {}. Its own error is about {:.0e} at most, so the table claims no error below {:.0e}.",
                 reference.words,
                 reference.floor,
                 reference.claim()
@@ -135,7 +135,8 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
             if let Some(scatter) = &reference.scatter {
                 let _ = writeln!(
                     text,
-                    "Beyond, means over time and all bodies are compared. Reference runs differ there by {}: chaos, not error.",
+                    "For the rest, the table compares means over time and all bodies. There, reference runs differ by {}: \
+                     chaos, not error.",
                     scatter.words()
                 );
             }
@@ -143,7 +144,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
                 let _ = writeln!(text, "warning: {warning}");
             }
         }
-        Err(_) => text.push_str("Reference: none; no errors are known.\n"),
+        Err(_) => text.push_str("Reference: none. No errors are known.\n"),
     }
     let advice = measured.settings.advice();
     if measured.reference.is_ok() {

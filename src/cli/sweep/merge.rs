@@ -24,7 +24,7 @@ pub(super) fn merge(folder: &Path, quiet: bool) -> Result<Exit, String> {
     let first: Vec<String> = missing.by_ref().take(MOST_NAMED).collect();
     if !first.is_empty() {
         let (first, more) = (first.join(", "), if missing.next().is_some() { " and more" } else { "" });
-        return Err(format!("of {of} shards in `{shown}` these are missing: {first}{more}"));
+        return Err(format!("of {of} shards in `{shown}` these are absent: {first}{more}"));
     }
     let read = |path: &PathBuf| {
         if !path.is_file() {

@@ -41,24 +41,24 @@ pub(super) struct Sweep {
     /// A scene file, or example:NAME for a scene that comes with the program
     #[arg(value_name = "SCENE", required_unless_present = "merge")]
     scene: Option<String>,
-    /// A name that varies; may be given several times. Every combination is run, the last name changing fastest. NAME is
-    /// one of the scene's `params`, or a path into its text: clock.tick, gravity[1], bodies.ball.spin, fill[0].seed.
-    /// VALUES are 1..5 (whole numbers), 0..1:11 (eleven values, ends included), 1..100:3:log, or a list a,b,c
+    /// Vary this name. The flag may stand several times. The command runs every combination, and the last name changes
+    /// fastest. NAME is one of the scene's `params`, or a path into its text: clock.tick, gravity[1], bodies.ball.spin,
+    /// fill[0].seed. VALUES are 1..5 (whole numbers), 0..1:11 (eleven values, ends included), 1..100:3:log, or a list a,b,c
     #[arg(long, value_name = "NAME=VALUES", value_parser = vary::variation, required_unless_present = "merge")]
     vary: Vec<Variation>,
     /// The directory for table.csv, contact_sheet.png and films
     #[arg(short, long, value_name = "DIR", required_unless_present = "merge")]
     output: Option<PathBuf>,
-    /// A GIF of each run too, DIR/run_1.gif and so on
+    /// Write a GIF of each run too: DIR/run_1.gif and so on
     #[arg(long)]
     films: bool,
     /// Size of the films in pixels, instead of the scene's
     #[arg(long, value_name = "WxH", value_parser = flags::size, requires = "films")]
     size: Option<(u32, u32)>,
-    /// No contact sheet
+    /// Write no contact sheet
     #[arg(long)]
     no_sheet: bool,
-    /// Only every Nth run, beginning with the Kth: for N computers that share a sweep. The table is DIR/table.K-of-N.csv
+    /// Do only every Nth run from the Kth on, if N computers share a sweep. The table is DIR/table.K-of-N.csv
     #[arg(long, value_name = "K/N", value_parser = shard)]
     shard: Option<(usize, usize)>,
     /// Put the tables of all shards in a directory together: DIR/table.csv, the same bytes as without shards
@@ -68,10 +68,10 @@ pub(super) struct Sweep {
     overrides: OverrideFlags,
     #[command(flatten)]
     strict: StrictFlag,
-    /// Runs at the same time; no number depends on it. Default: one for each core
+    /// Do so many runs at the same time. No result depends on it. Default: one for each core
     #[arg(long, value_name = "N", value_parser = flags::threads, allow_negative_numbers = true)]
     threads: Option<usize>,
-    /// No progress bar, and messages only if something is wrong
+    /// Show no progress bar, and messages only if something is wrong
     #[arg(long)]
     quiet: bool,
     /// Print the result of each run as one line of JSON on standard output
@@ -85,17 +85,17 @@ Examples:
   jostle sweep my.ron --vary friction=0..1:11 --vary seed=1..5 -o out/    `friction` and `seed` are params of my.ron
   jostle sweep my.ron --vary clock.tick=1ms,0.5ms,0.25ms -o ticks/        does the result depend on the tick?
   jostle sweep my.ron --vary mass=0.1..10:5:log -o out/ --films           a GIF of each run
-  jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of them, on one of 16 computers
-  jostle sweep --merge out/                                               when all shards are there
+  jostle sweep my.ron --vary seed=1..1600 -o out/ --shard 3/16            a sixteenth of the runs, on one of 16 computers
+  jostle sweep --merge out/                                               one table, when all shards are there
 
-If you give the command of an interrupted sweep again, it goes on where it was: DIR/table.runs holds all finished runs.
+DIR/table.runs holds all finished runs. If you give the command of an interrupted sweep again, only the other runs are made.
 
-DIR/table.csv has a row for each run: the values that vary, how it ended, the expectations that hold, the energy residual and \
-its share of the energy that went round, the deepest overlap, the tick and the state hash. Then each channel of the scene's \
-sensors has its last, least and greatest value, taken at the times of the film's frames and at the end. The row of a run that \
-fails holds the reason.
+DIR/table.csv has a row for each run. Its first columns are the values that vary and the end of the run. Then follow the \
+expectations that hold, the energy residual, and its share of the energy that changed form. The deepest overlap, the tick and the \
+state hash come next. Each channel of the scene's sensors has its last, least and greatest value, over the film's frames and \
+the end. The row of a run that fails holds the reason.
 
-Exit codes are those of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 usage, 3 a run went wrong.";
+The exit code is that of the worst run: 0 good, 1 an expectation broken or a scene refused, 2 command line wrong, 3 run gone wrong.";
 
 /// The most incomplete runs that are reported one by one.
 const MOST_TOLD: usize = 10;
@@ -157,7 +157,7 @@ impl Sweep {
         let taken = record.rows.len();
         if taken > 0 && !self.quiet {
             let taken = count(taken, "run is", "runs are");
-            say(&format!("note: {taken} there already: the sweep goes on where it was interrupted"));
+            say(&format!("note: {taken} there already, and the sweep makes only the others"));
         }
         let (attempts, mut exit) = self.run_all(&source, &grid, &left, folder, sheet, &mut record);
         let seconds = start.elapsed().as_secs_f64();
@@ -186,9 +186,14 @@ impl Sweep {
             if sheet && attempts.iter().any(|attempt| attempt.picture.is_some()) {
                 say(&format!("{}: the last moment of each run", image.display()));
             } else if !self.no_sheet && taken > 0 {
-                say("note: no contact sheet, as some runs were there already: the same command once more makes it");
+                say(
+                    "note: there is no contact sheet, as some runs were there already. The same command once more makes it",
+                );
             } else if !self.no_sheet && !sheet {
-                say(&format!("note: no contact sheet of more than {} runs", contact_sheet::MOST_PICTURES));
+                say(&format!(
+                    "note: a contact sheet shows at most {} runs, so there is none",
+                    contact_sheet::MOST_PICTURES
+                ));
             }
         }
         Ok(exit)
@@ -282,7 +287,7 @@ impl Sweep {
                     && let Err(message) = record.add(&Row::of(run + 1, owned(grid, run), &attempt))
                 {
                     recorded = false;
-                    progress.aside(|| say(&format!("note: {message}; if the sweep is interrupted, it begins anew")));
+                    progress.aside(|| say(&format!("note: {message}. If you interrupt the sweep, it begins anew")));
                 }
                 if self.json {
                     exit = exit.worse(print_line(&json(grid, run, &attempt).to_string()));

@@ -28,7 +28,7 @@ impl Record {
     pub fn open(path: &Path, sweep: &str) -> Result<Self, String> {
         let shown = path.display();
         if path.symlink_metadata().is_ok_and(|about| !about.is_file()) {
-            return Err(format!("`{shown}` is no file: a sweep keeps its finished runs there; move it away"));
+            return Err(format!("`{shown}` is no file, but a sweep keeps its finished runs there: move it away"));
         }
         let told = |cause: std::io::Error| format!("`{shown}` cannot be written: {cause}");
         let opened = OpenOptions::new().read(true).write(true).create(true).truncate(false).open(path);

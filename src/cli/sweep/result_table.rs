@@ -187,7 +187,7 @@ impl Table {
         let mut rows: Vec<Row> = shards.into_iter().flat_map(|table| table.rows).collect();
         rows.sort_by_key(|row| row.run);
         if rows.iter().enumerate().any(|(index, row)| row.run != index + 1) {
-            return Err("runs are missing or there twice: they are shards of different sweeps".to_owned());
+            return Err("runs are absent or there twice: they are shards of different sweeps".to_owned());
         }
         let table = Self { names, sweep: None, rows };
         table
@@ -229,7 +229,8 @@ fn checked(text: &str) -> Result<String, String> {
         Some((head, sum)) => {
             let text = format!("{head}{rest}");
             let fits = sum == format!("{:016x}", of_bytes(text.bytes()));
-            fits.then_some(text).ok_or_else(|| format!("it was cut or changed, as its check sum tells: {again}"))
+            fits.then_some(text)
+                .ok_or_else(|| format!("it does not fit its check sum, so it was cut or changed: {again}"))
         }
         None if head.contains(&format!(",{SWEEP}")) => Err(format!("it has no check sum: {again}")),
         None => Ok(text.to_owned()),

@@ -58,8 +58,8 @@ fn range(text: &str) -> Result<Vec<String>, String> {
     let wrong = |why: &str| {
         format!("`{text}` is no range: {why}; write 1..5 (whole numbers), 0..1:11 (eleven values) or 1..100:3:log")
     };
-    let (from, unit_from) = measure(from).ok_or_else(|| wrong("it begins with no number"))?;
-    let (to, unit) = measure(to).ok_or_else(|| wrong("it ends with no number"))?;
+    let (from, unit_from) = measure(from).ok_or_else(|| wrong("it does not begin with a number"))?;
+    let (to, unit) = measure(to).ok_or_else(|| wrong("it does not end with a number"))?;
     if !unit_from.is_empty() && unit_from != unit {
         return Err(wrong("both ends need the same unit"));
     }

@@ -19,7 +19,7 @@ pub struct DeadPoints {
     /// Time in seconds and `s` of the last two steps, the later one last.
     before: [Option<(f64, f64)>; 2],
     largest: f64,
-    /// How many were passed.
+    /// The number of dead points that the run has passed.
     pub passed: u64,
     /// When the first one was passed, in seconds.
     pub first: Option<f64>,

@@ -57,7 +57,7 @@ pub struct Rows {
     answer: Vec<f64>,
     #[serde(skip)]
     work: Vec<f64>,
-    /// How many rows are not those of contacts.
+    /// The number of rows that are not those of contacts.
     joints: usize,
     /// Rows that give their bounds in this evaluation, because their rates would need more.
     given: Vec<usize>,
@@ -125,7 +125,7 @@ impl Rows {
         self.rows.is_empty()
     }
 
-    /// How many there are: the index of the row that is added next.
+    /// The number of them: the index of the row that is added next.
     pub fn len(&self) -> usize {
         self.rows.len()
     }

@@ -87,7 +87,7 @@ impl Solver {
         }
         self.factor_joints(rows, bodies);
         if self.dependent && !self.borders.is_empty() {
-            // Which of many answers is taken, all rows of an island decide together.
+            // All rows of an island together decide which of many answers the solver takes.
             self.find_structure(rows, bodies, usize::MAX);
             self.factor_joints(rows, bodies);
         }

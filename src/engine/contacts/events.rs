@@ -39,7 +39,7 @@ pub struct ContactEvents {
 }
 
 impl ContactEvents {
-    /// How many bodies and walls touch a body or wall.
+    /// The number of bodies and walls that touch a body or wall.
     pub fn count(&self, entity: Entity) -> usize {
         self.present.iter().filter(|pair| pair.a == entity || pair.b == entity).count()
     }

@@ -18,8 +18,8 @@ pub use events::{ContactEvents, ContactEventsAppExt};
 pub use law::{ContactLaw, LawSide, LawTouch, add_law};
 
 const MEANING: &str = "\
-The law by which touching things push each other. Without this section `Penalty` with its defaults, if there is something to touch; with \
-`contacts: None` everything passes through everything.";
+The law by which touching bodies and walls push each other. Without this section it is `Penalty` with its defaults, if bodies \
+can touch. With `contacts: None` bodies pass through each other and through walls.";
 
 /// Registers the contact laws of this folder.
 pub fn plugin(app: &mut App) {

@@ -21,7 +21,7 @@ struct Actuator {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// Torque in N m on `b`, counter-clockwise; of a slide the force in N along its axis.
+    /// Torque in N m on `b`, counter-clockwise. For a slide it is the force in N along its axis.
     force: ControlTarget<OfTorque, OfForce>,
 }
 

@@ -27,8 +27,8 @@ use crate::tick::{
     Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
 };
 
-/// Drives a hinge to an angle, or a slide to a position. Its torque (force) is `kp (target - angle) + ki` times the
-/// integral of that `+ kd (rate of the target - rate)`. The field `limit` bounds it.
+/// Drives a hinge to an angle, or a slide to a position. Its torque (force) has three terms: `kp (target - angle)`, `ki`
+/// times the integral of that difference, and `kd (rate of the target - rate)`. The field `limit` bounds it.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Servo {
@@ -36,22 +36,22 @@ struct Servo {
     name: Option<String>,
     /// The joint.
     of: String,
-    /// The angle in rad or with a unit; of a slide the travel in metres, likewise.
+    /// The angle in rad or with a unit. For a slide it is the travel in metres or with a unit.
     target: ControlTarget<OfAngle, OfLength>,
-    /// In N m/rad, or N/m for a slide. Not negative.
+    /// The proportional gain in N m/rad, or N/m for a slide. Not negative.
     kp: Scalar,
-    /// In N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
+    /// The integral gain in N m/(rad s), or N/(m s) for a slide. Not negative. Default: 0.
     #[serde(default)]
     ki: Scalar,
-    /// In N m s/rad, or N s/m for a slide. Not negative. Default: 0.
+    /// The derivative gain in N m s/rad, or N s/m for a slide. Not negative. Default: 0.
     #[serde(default)]
     kd: Scalar,
     /// The greatest torque in N m, or force in N for a slide. Above zero. Default: none.
     limit: Option<DrivenForce>,
     /// The sampling rate in Hz. The servo holds its output between samples. Above zero. Default: all the time.
     rate: Option<Rate>,
-    /// How long after each sample its output takes effect, in seconds. It may be longer than a period. Until the first sample takes
-    /// effect, the servo gives nothing. Needs `rate`. Not negative. Default: 0.
+    /// The time in seconds from each sample until its output takes effect. It may be longer than a period. Until the first
+    /// sample takes effect, the output is zero. A delay needs a `rate`. Not negative. Default: 0.
     delay: Option<Time>,
 }
 
@@ -378,7 +378,7 @@ impl Events for ServoForce {
         rates.fill(self.driven.motion(&state.bodies).map_or(0.0, error));
     }
 
-    /// How far the output is from both bounds, or beyond the one that it gives.
+    /// The distance of the output from both bounds, or beyond the one that it gives.
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         let Some(Wanted { torque, slope, size }) = self.look(state) else { return };
         let told_of = |sign: f64, limit: f64| Indicator {

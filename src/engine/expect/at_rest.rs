@@ -10,13 +10,13 @@ use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
-/// From a time on every point of the bodies is slower than a speed; looked at every tick.
+/// From a time on, every point of the bodies is slower than a speed, at every tick.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct AtRest {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
-    /// From this time on, in seconds.
+    /// The expectation holds from this time on, in seconds.
     from: Time,
     /// All points are slower than this, in m/s.
     speed_below: Speed,

@@ -12,7 +12,7 @@ use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
-/// The magnitude of a channel stays below a bound; looked at every tenth tick and at the end.
+/// The magnitude of a channel stays below a bound, at every tenth tick and at the end.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Channel {
@@ -20,7 +20,7 @@ struct Channel {
     name: String,
     /// The bound, in the channel's unit.
     below: Scalar,
-    /// From this time on, in seconds. Default: 0.
+    /// The expectation holds from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
 }

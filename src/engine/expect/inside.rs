@@ -15,7 +15,7 @@ use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Inside {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// Lower left and upper right corner in metres.
     r#box: (Place, Place),

@@ -152,7 +152,7 @@ impl Expectations {
         let outcome = |(text, watch): &(String, Box<dyn Watch>)| {
             let (holds, mut measured) = watch.verdict();
             if holds.is_none() {
-                measured = format!("the run ended before it could be judged; {measured}");
+                measured = format!("the run ended too early to judge it; {measured}");
             }
             ExpectationOutcome { text: text.clone(), holds: holds == Some(true), measured, judged: holds.is_some() }
         };
@@ -202,10 +202,9 @@ pub fn plugin(app: &mut App) {
     );
     app.describe_section(
         "expect",
-        "Claims about the run: the scene is its own test. Checked by `run`, `render` and `check --run`; an \
-         expectation that is broken is told, and the exit code is 1. Under a `tolerance` or `method: Reference` ticks are the \
-         frames of the film: claims for every tick are looked at there and not between, and the card says how far \
-         apart they are.",
+        "Claims about the run, which make the scene its own test. The commands `run`, `render` and `check --run` check them. \
+         They name each broken expectation, and exit with 1. Under a `tolerance` or `method: Reference` ticks are the frames of \
+         the film. Expectations for every tick then look at the frames and not between. The card names their distance in time.",
     );
     at_rest::plugin(app);
     channel::plugin(app);

@@ -17,11 +17,11 @@ use crate::world::between::{MotionSample, position_between};
 struct Position {
     /// The name of the body.
     of: String,
-    /// When, in seconds.
+    /// The time in seconds.
     at: Time,
     /// The expected position of its centre of mass, in metres.
     is: Place,
-    /// The distance from there that is allowed, in metres.
+    /// The greatest distance from there, in metres.
     within: Length,
 }
 

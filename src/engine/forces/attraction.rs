@@ -22,7 +22,7 @@ use crate::world::{Bodies, Name};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Attraction {
-    /// `G` in N m2/kg2; a negative one repels.
+    /// `G` in N m2/kg2. A negative one repels.
     constant: Quantity<GravitationalConstant>,
     /// Length `s` in metres below which the force stops growing. Default: 0.
     #[serde(default)]
@@ -72,7 +72,7 @@ fn refuse_coincident(world: &mut World) {
     let same = |(a, b): &(usize, usize)| bodies.position[*a] == bodies.position[*b];
     let Some((a, b)) = pairs(&bodies.dynamic).find(same) else { return };
     let name = |body: usize| world.get::<Name>(bodies.entity[body]).map(Name::to_string).unwrap_or_default();
-    let message = format!("`{}` and `{}` stand in one place, where the attraction is infinite", name(a), name(b));
+    let message = format!("`{}` and `{}` stand in one place: their attraction is infinite", name(a), name(b));
     let help = "move one of them, or write `softening:`, a length below which the force stops growing";
     let error = SceneError::new(world.resource::<Unsoftened>().0.clone(), message).with_help(help);
     world.get_resource_or_init::<LoadErrors>().0.push(error);

@@ -79,7 +79,7 @@ pub enum Miss {
     Short {
         /// The least speed in m/s that reaches the place.
         least: f64,
-        /// How far in metres the given speed reaches in the direction of the place.
+        /// The reach in metres of the given speed in the direction of the place.
         reach: f64,
     },
     /// No speed was found that reaches the place.
@@ -200,7 +200,7 @@ impl Flight {
         Ok(Shot { velocity: target / time - self.gravity * (0.5 * time), time })
     }
 
-    /// How far in metres the speed reaches in the direction of the target, to a part in a million.
+    /// The reach in metres of the speed in the direction of the target, to a part in a million.
     fn reach(&self, target: DVec2, speed: f64) -> f64 {
         let (mut low, mut high) = (0.0, 1.0);
         for _ in 0..20 {

@@ -23,7 +23,7 @@ struct Drag {
     /// Quadratic coefficient in N s2/m2. Default: 0.
     #[serde(default)]
     quadratic: QuadraticDamping,
-    /// The bodies it acts on, `*` matches. Default: all bodies.
+    /// The bodies that the force moves. `*` stands for any letters. Default: all bodies.
     of: Option<Names>,
 }
 

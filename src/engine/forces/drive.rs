@@ -23,13 +23,13 @@ use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, State, SteadySpring, TickAppExt};
 
-/// A force or torque that follows a course in time. The course is a factor on the values that are given here.
+/// A force or torque that follows a course in time. The course is a factor on the values of this entry.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Drive {
-    /// The bodies it acts on, `*` matches.
+    /// The bodies that the force moves. `*` stands for any letters.
     of: Names,
-    /// Force in newtons if the course is 1. Default: none; a drive has a force, a torque or both.
+    /// Force in newtons if the course is 1. A drive has a force, a torque or both. Default: none.
     force: Option<ForcePair>,
     /// Torque in N m, counter-clockwise, if the course is 1. Default: none.
     torque: Option<units::Torque>,
@@ -52,12 +52,11 @@ pub enum Course {
         /// The largest value. Default: 1.
         #[serde(default = "one")]
         amplitude: Scalar,
-        /// Periods per second, in Hz. Not negative. Either this or `angular_frequency`. Default: from
-        /// `angular_frequency`.
+        /// Periods per second, in Hz. Not negative. Write this or `angular_frequency`. Default: from `angular_frequency`.
         frequency: Option<Rate>,
         /// `2 pi` times that, in rad/s. Not negative. Default: from `frequency`.
         angular_frequency: Option<Spin>,
-        /// At the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
+        /// The phase at the start of the run, in rad. A quarter of a turn makes a cosine. Default: 0.
         #[serde(default)]
         phase: Angle,
     },
@@ -65,10 +64,9 @@ pub enum Course {
     /// their values. Steps inside ticks end at the points. `VelocityVerlet` and `SemiImplicitEuler` without located
     /// events see the course at ticks only. The card warns if that changes the impulse.
     Piecewise(Vec<(Time, Scalar)>),
-    /// The same from a file of two columns, time in seconds and value, with or without a line of names. The path begins
-    /// in the folder of the file with this entry. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its
-    /// columns by name; without `time` the first column holds it. The line of names may hold units, as in `angle
-    /// [rad]`.
+    /// The same from a file of two columns, time in seconds and value, with or without a line of names. The path begins in
+    /// the folder of the file with this entry. `Csv(file: "arm.csv", time: "t", column: "angle")` reads two of its columns
+    /// by name. Without `time` the first column holds it. The line of names may hold units, as in `angle [rad]`.
     Csv(#[schemars(with = "CsvFile")] String),
 }
 
@@ -321,13 +319,13 @@ impl Model for DriveForce {
         let shares = clock_of_whole_ticks(state, mode).and_then(|clock| self.course.lost_and_gained(&clock));
         let Some((lost, gained)) = shares else { return Vec::new() };
         let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
-        let shares: Vec<String> = shares.map(|(share, what)| format!("{} {what}", percent(share))).collect();
+        let shares: Vec<String> = shares.map(|(share, what)| format!("{what} {}", percent(share))).collect();
         if shares.is_empty() {
             return Vec::new();
         }
         let (path, shares) = (&self.path, shares.join(" and "));
         let what = format!(
-            "points of the course of `{path}` lie between ticks, which do not see them: of its impulse {shares}"
+            "points of the course of `{path}` lie between ticks, which do not see them. Of its impulse, the run {shares}"
         );
         vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
     }

@@ -18,18 +18,18 @@ use crate::tick::{AfterLoad, LoadErrors, State};
 use crate::world::Velocity;
 use jostle_language::numbers::number;
 
-/// Gives a body the velocity at the start with which its centre of mass flies through a point. Gravity, drag and wind
-/// of the scene count; other forces make it miss. An unreachable point is an error that names a sufficient speed.
+/// Gives a body the velocity at the start with which its centre of mass flies through a point. Gravity, drag and wind of
+/// the scene count. Other forces make it miss. An unreachable point is an error that names a sufficient speed.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Aim {
-    /// The body that is thrown. It must have no `velocity` in the scene.
+    /// The body that flies. It must have no `velocity` in the scene.
     of: String,
-    /// The place it is to fly through, in metres.
+    /// The place that it reaches, in metres.
     at: LengthPair,
     /// Its speed at the start in m/s. Above zero.
     speed: Speed,
-    /// Which of the two ways. Default: `Low`.
+    /// The lower or the higher one of the two ways. Default: `Low`.
     #[serde(default)]
     arc: AimArc,
 }
@@ -119,7 +119,7 @@ fn aim_bodies(world: &mut World) {
                 let DVec2 { x, y } = shot.velocity;
                 let angle = number(libm::atan2(y, x).to_degrees());
                 let (name, time) = (&aim.name, number(shot.time));
-                notes.push(format!("`{name}` is thrown at {angle} deg and reaches its aim at t = {time} s"));
+                notes.push(format!("`{name}` starts at {angle} deg and reaches its aim at t = {time} s"));
             }
             Err(error) => errors.push(*error),
         }

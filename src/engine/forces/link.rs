@@ -74,7 +74,7 @@ pub(super) fn check_ends(a: &str, b: &Partner, outline: &Outline, report: &mut D
         outline.require(NameKind::BODY, b, "b", report);
         if a == b {
             let help = "name two bodies, or hold one to the world with `b: World`";
-            report.error("b", format!("both ends are on \"{a}\": nothing would be moved")).help(help);
+            report.error("b", format!("both ends are on \"{a}\": the force would move no body")).help(help);
         }
     }
 }
@@ -97,7 +97,7 @@ pub struct LinkEnd {
     pub arm: DVec2,
     /// Its position, in metres.
     pub position: DVec2,
-    /// How it moves, in m/s.
+    /// Its velocity, in m/s.
     pub velocity: DVec2,
 }
 

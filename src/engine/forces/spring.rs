@@ -20,7 +20,7 @@ use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
 
 /// A spring, and a damper beside it, between points of two bodies or of a body and the world. It pulls its ends together by
-/// `stiffness (distance - length) + damping d(distance)/dt`, and pushes where that is negative.
+/// `stiffness (distance - length) + damping d(distance)/dt`, and pushes if that is negative.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Spring {

@@ -25,7 +25,7 @@ use crate::world::Bodies;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Thrust {
-    /// The bodies it acts on, `*` matches.
+    /// The bodies that the force moves. `*` stands for any letters.
     of: Names,
     /// The point at which the force acts, in the body's frame, in metres. It counts from the centre of mass, or from the origin
     /// with `datum: Origin`. Default: the centre of mass.
@@ -35,10 +35,10 @@ struct Thrust {
     /// Whether the force turns with the body. Default: `World`.
     #[serde(default)]
     frame: ThrustFrame,
-    /// It acts from this time on, in seconds. Default: 0.
+    /// The force acts from this time on, in seconds. Default: 0.
     #[serde(default)]
     from: Time,
-    /// The time at which it ends, in seconds. Default: it never ends.
+    /// The time at which it ends, in seconds. Default: none.
     to: Option<Time>,
 }
 
@@ -93,7 +93,7 @@ pub struct ThrustForce {
     pub force: DVec2,
     /// Whether the force turns with the body.
     pub turns: bool,
-    /// It acts from this time on, in seconds.
+    /// The force acts from this time on, in seconds.
     pub from: f64,
     /// The time at which it ends, in seconds.
     pub to: f64,
@@ -181,17 +181,17 @@ impl ThrustForce {
             to => format!("from {} s to {} s", at(self.from), at(to)),
         };
         let came = match share {
-            -1.0 => "does not act at all: its whole impulse is lost".to_owned(),
+            -1.0 => "does not act at all. Its whole impulse is lost".to_owned(),
             _ => {
                 let impulse = match share {
                     share if share <= -5e-4 => format!("{} of its impulse is lost", percent(-share)),
                     share if share >= 5e-4 => format!("its impulse is {} too large", percent(share)),
-                    _ => "its impulse is right, but not its time".to_owned(),
+                    _ => "its impulse is right, but its time is not".to_owned(),
                 };
                 format!("acts from {} s to {} s: {impulse}", at(begin), at(end))
             }
         };
-        let what = format!("`{}` is to act {times}, but acts in whole ticks and {came}", self.path);
+        let what = format!("`{}` ought to act {times}. In whole ticks it {came}", self.path);
         Some(Departure { what, remedy: REMEDY, share: share.abs() })
     }
 

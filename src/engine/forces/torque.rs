@@ -14,7 +14,7 @@ use crate::tick::{Energies, Model, State, SteadySpring, TickAppExt};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Torque {
-    /// The bodies it acts on, `*` matches.
+    /// The bodies that the force moves. `*` stands for any letters.
     of: Names,
     /// Torque in N m, counter-clockwise.
     value: units::Torque,

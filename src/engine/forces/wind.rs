@@ -28,7 +28,7 @@ struct Wind {
     /// Quadratic coefficient in N s2/m2. Default: 0.
     #[serde(default)]
     quadratic: QuadraticDamping,
-    /// The bodies it acts on, `*` matches. Default: all bodies.
+    /// The bodies that the force moves. `*` stands for any letters. Default: all bodies.
     of: Option<Names>,
 }
 

@@ -11,7 +11,7 @@ pub struct ChosenMethod {
     pub name: &'static str,
     /// Whether events are located inside ticks.
     pub located: bool,
-    /// How it evaluates models with a history.
+    /// The style in which it evaluates models with a history.
     pub mode: EvaluationMode,
 }
 

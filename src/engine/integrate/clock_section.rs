@@ -22,7 +22,7 @@ pub enum EventTiming {
     PerTick,
 }
 
-/// How long the run is, in which steps, by which method.
+/// The duration, the steps and the method of the run.
 #[derive(Resource, Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Clock")]
@@ -32,7 +32,7 @@ pub struct ClockSection {
     /// Length of one tick, in s. Above zero and not longer than the run. Default: chosen from the scene.
     #[serde(default)]
     pub tick: Option<Time>,
-    /// The integration method. Default: `Auto`, the engine chooses.
+    /// The integration method. With `Auto` the engine chooses. Default: `Auto`.
     #[serde(default = "auto")]
     #[schemars(extend("x-words" = "method"))]
     pub method: Word,
@@ -40,7 +40,7 @@ pub struct ClockSection {
     /// the distance that bodies go, for velocities a share of their speed. Default: none.
     #[serde(default)]
     pub tolerance: Option<Scalar>,
-    /// When jumps of the forces take place. Default: `Auto`.
+    /// The moments at which forces jump. Default: `Auto`.
     #[serde(default)]
     pub events: EventTiming,
 }
@@ -57,7 +57,7 @@ impl ClockSection {
     pub const AUTO: &'static str = "Auto";
     /// The method with the smallest possible error, which it also estimates. It must be registered too.
     pub const REFERENCE: &'static str = "Reference";
-    /// Why a tolerance does not go with it.
+    /// The reason for which a tolerance does not go with it.
     pub(crate) const REFERENCE_HAS_NONE: &'static str =
         "`Reference` makes the smallest error there is: it takes no tolerance";
 }
@@ -86,10 +86,7 @@ impl Section for ClockSection {
         }
         if self.tick.is_some() {
             report
-                .error(
-                    "tolerance",
-                    "both a `tick` and a `tolerance` are given, but a tolerance chooses the steps itself",
-                )
+                .error("tolerance", "`tick` and `tolerance` exclude each other: a tolerance chooses the steps itself")
                 .help("leave out one of the two");
         } else if self.method.0 == Self::REFERENCE {
             report

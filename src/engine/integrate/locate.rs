@@ -36,14 +36,14 @@ pub struct Bracket {
     high: IndicatorSample,
     /// Greatest value of each indicator at both ends of the step.
     scale: Vec<f64>,
-    /// Which were above zero at the beginning.
+    /// The indicators that were above zero at the beginning.
     above: Vec<bool>,
-    /// Which have been seen below zero after that.
+    /// The indicators that were below zero at a look after that.
     crossing: Vec<bool>,
     /// The share tried last.
     tried: f64,
     guesses: u32,
-    /// How often the lower end (positive) or the upper one (negative) was replaced in a row.
+    /// The number of times that the lower end (positive) or the upper one (negative) was replaced in a row.
     replaced: i32,
     /// The share tried last is the event.
     met: bool,

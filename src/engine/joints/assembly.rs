@@ -34,7 +34,7 @@ pub(super) fn assemble(world: &mut World) {
         let open = |joint: &&Joint| joint.drift(state.bodies()).total_cmp(&CLOSED).is_gt();
         let path = state.models_of::<Joint>().find(open).map_or("joints", |joint| joint.path()).to_owned();
         let help = "move bodies or anchors nearer to where the joints meet, and see whether lengths fit";
-        let error = SceneError::new(path, "no place of its bodies was found that closes this joint").with_help(help);
+        let error = SceneError::new(path, "no place of its bodies closes this joint").with_help(help);
         world.get_resource_or_init::<LoadErrors>().0.push(error);
         return;
     }
@@ -56,14 +56,15 @@ pub(super) fn assemble(world: &mut World) {
         let name = world.get::<Name>(entity).map(Name::to_string).unwrap_or_default();
         if moved + turn.abs() * extent > TOLD * size {
             notes.push(format!(
-                "`{name}` was moved by {} m and turned by {} rad to close its joints",
+                "to close its joints, the engine moved `{name}` by {} m and turned it by {} rad",
                 number(moved),
                 number(turn)
             ));
         }
         if faster + spun.abs() * extent > TOLD * fastest {
             notes.push(format!(
-                "`{name}` begins with ({}, {}) m/s and {} rad/s: its joints allow no other motion that is nearer to the scene's",
+                "`{name}` begins with ({}, {}) m/s and {} rad/s: of all motions that its joints allow, this one is nearest to \
+                 the scene's",
                 number(velocity.x),
                 number(velocity.y),
                 number(spin)

@@ -80,7 +80,7 @@ impl Bounded {
         self.set(Mode::Gives(torque.signum()));
     }
 
-    /// How far the rate is from the one to be held; nothing if rounding makes it so.
+    /// The distance of the rate from the one to hold, or `None` if it is only rounding.
     fn missing(&self, pair: &EndPair, along: &Along) -> f64 {
         let missing = self.speed - pair.rate(along);
         let share = if self.farthest == 0.0 { ROUNDING } else { SAME };

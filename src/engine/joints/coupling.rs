@@ -116,7 +116,7 @@ pub struct Coupling {
 /// How a pinion meets its rack.
 #[derive(Clone, Copy, Debug)]
 struct Mesh {
-    /// Which end of the hinge is the pinion, which one of the slide the rack. The other two are their frame.
+    /// The end of the hinge that is the pinion, and the end of the slide that is the rack. The other two are their frame.
     pinion: usize,
     rack: usize,
     /// From anchor B of the slide to the pitch point, across the axis, in m.
@@ -306,8 +306,7 @@ impl Model for Coupling {
         match self.held(bodies) {
             Some(Ok(row)) => self.offset = row.gap,
             Some(Err(count)) => {
-                let help =
-                    "hold the frame of both joints to the world, or let it be a body that is fixed or has a path";
+                let help = "hold the frame of both joints to the world, or to a body that is fixed or has a path";
                 let message = format!("its joints move {count} bodies together: only two can be coupled so far");
                 self.refuse(world, message, help);
             }

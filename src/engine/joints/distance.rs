@@ -33,15 +33,15 @@ struct Distance {
     anchor_b: Option<LengthPair>,
     /// The distance in metres. Above zero. Default: that at the start.
     length: Option<Length>,
-    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    /// The frequency in Hz and the damping ratio with which it swings as a spring. Default: none.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
-    /// false, an open joint is an error.
+    /// Whether the engine moves bodies to close a joint that is open at the start. The card gives the distance. If not, an
+    /// open joint is an error. Default: false.
     #[serde(default)]
     assemble: bool,
 }

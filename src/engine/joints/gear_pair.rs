@@ -9,8 +9,8 @@ use super::joint_model;
 use crate::scene::units::Scalar;
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
-/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and no force: a
-/// ratio names no place for teeth, so the bearings bear nothing of them.
+/// Gears on two hinges: the rate of the second is `ratio` times the rate of the first, without play. They give torques and
+/// no force: a ratio names no place for teeth. So the bearings bear no force of them.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct GearPair {
@@ -18,7 +18,7 @@ struct GearPair {
     name: Option<String>,
     /// The two hinges, by name.
     of: (String, String),
-    /// Rate of the second over rate of the first; negative for gears that mesh from outside. Not zero.
+    /// Rate of the second hinge over rate of the first. It is negative for gears that mesh from outside. Not zero.
     ratio: Scalar,
 }
 
@@ -34,7 +34,7 @@ impl Entry for GearPair {
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("ratio", self.ratio) && self.ratio.si() == 0.0 {
-            report.error("ratio", "nothing would be coupled").help("give `ratio` a value that is not zero");
+            report.error("ratio", "the gears would couple no motion").help("give `ratio` a value that is not zero");
         }
     }
 

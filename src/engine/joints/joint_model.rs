@@ -63,7 +63,7 @@ pub(super) fn check_ends(a: &Partner, b: &Partner, outline: &Outline, report: &m
             Partner::World => "`World`".to_owned(),
         };
         let help = "name two bodies, or hold one to the world with `a: World`";
-        report.error("b", format!("both sides are {side}: nothing would be held")).help(help);
+        report.error("b", format!("both sides are {side}: the joint would hold nothing")).help(help);
     }
 }
 
@@ -208,7 +208,7 @@ impl Joint {
         let moves = [pair.a.body, pair.b.body].into_iter().flatten().any(|body| bodies.dynamic[body]);
         if !moves {
             let help = "let one of its bodies move by forces, or remove the joint";
-            return self.mistake(world, "neither side moves by forces: nothing would be held".to_owned(), help);
+            return self.mistake(world, "neither side moves by forces: the joint would hold nothing".to_owned(), help);
         }
         let (mut gap, mut turned) = (0.0_f64, 0.0_f64);
         self.law.hold(pair, &mut |held: Held| {
@@ -235,7 +235,7 @@ impl Joint {
             self.mistake(world, message, help);
         }
         if pair.between() == DVec2::ZERO && self.law.needs_distance() {
-            let message = "both anchors are in one place: there is no distance to keep".to_owned();
+            let message = "both anchors are in one place: the joint has no distance to keep".to_owned();
             self.mistake(world, message, "move a body or an anchor, or use `Revolute`");
         }
     }
@@ -373,8 +373,8 @@ impl Model for Joint {
         let dead = state.dead_points();
         if let (true, Some(time)) = (first, dead.first) {
             remarks.push(format!(
-                "a loop of joints passes a dead point at t = {} s, {} in all: bars are in line there, joints alone do not determine the \
-                 way on, and rounding grows",
+                "a loop of joints passes a dead point at t = {} s, {} in all. Bars are in line there, joints alone do not \
+                 determine the way on, and rounding grows",
                 number(time),
                 dead.passed,
             ));
@@ -382,8 +382,11 @@ impl Model for Joint {
         if !(first && state.rows().is_dependent()) {
             return remarks;
         }
-        remarks.push("some rows of joints follow from others: the motion is exact, but forces may share the load in many ways; the engine takes those of least \
-              norm".to_owned());
+        remarks.push(
+            "some joints repeat constraints of others. The motion is exact, but forces may share the load in many \
+        ways. The engine takes the forces of least norm"
+                .to_owned(),
+        );
         remarks
     }
 

@@ -9,7 +9,7 @@ use super::ends::{Along, EndPair};
 pub struct Held {
     /// The direction.
     pub along: Along,
-    /// How far, in m or rad.
+    /// The distance, in m or rad.
     pub gap: f64,
     /// The size of the numbers from which that was found.
     pub size: f64,

@@ -109,7 +109,7 @@ impl Limit {
         [Side::Low, Side::High].into_iter().filter(there)
     }
 
-    /// How far the value is from a limit, positive inside, and the numbers from which that was found.
+    /// The distance of the value from a limit, positive inside, and the numbers from which it follows.
     fn room(&self, side: Side, pair: &EndPair, freedom: &Freedom) -> (f64, f64) {
         let (bound, value) = (self.bound(side), freedom.value);
         let turns = freedom.along.sides.iter().all(|side| side.0 == DVec2::ZERO);
@@ -117,7 +117,7 @@ impl Limit {
         (side.sign() * (value - bound), value.abs() + bound.abs() + size)
     }
 
-    /// How far the joint is beyond the limits, in rad or m.
+    /// The distance of the joint beyond the limits, in rad or m.
     pub fn beyond(&self, pair: &EndPair, freedom: &Freedom) -> f64 {
         let beyond = |side| {
             let (room, size) = self.room(side, pair, freedom);
@@ -213,7 +213,7 @@ impl Limit {
         }));
     }
 
-    /// How many indicators there are.
+    /// The number of indicators.
     pub fn count(&self) -> usize {
         if self.at.is_some() { 1 } else { self.sides().count() }
     }

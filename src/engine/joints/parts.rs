@@ -60,7 +60,7 @@ pub struct JointParts {
     break_force: Option<f64>,
     /// When it broke, in seconds.
     pub broken: Option<f64>,
-    /// How many rows there are, of the limit and of friction.
+    /// The number of rows, of the limit and of friction.
     rows: [usize; 2],
 }
 
@@ -98,7 +98,7 @@ impl JointParts {
         }
     }
 
-    /// How far the joint is beyond its limits, in rad or m.
+    /// The distance of the joint beyond its limits, in rad or m.
     pub fn beyond(&self, law: &dyn JointLaw, pair: &EndPair) -> f64 {
         let freedom = law.freedom(pair);
         self.limit.as_ref().zip(freedom).map_or(0.0, |(limit, freedom)| limit.beyond(pair, &freedom))

@@ -19,7 +19,7 @@ use crate::scene::units::{Force, Length, LengthPair, Scalar};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 /// A slide: `anchor_b` of `b` moves along a line through `anchor_a` that belongs to `a`. Body `b` does not turn against
-/// `a`. Its travel is measured from `anchor_a` along the line.
+/// `a`. Its travel counts from `anchor_a` along the line.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Prismatic {
@@ -32,26 +32,27 @@ struct Prismatic {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<LengthPair>,
-    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` without both.
+    /// The anchor on `b`, likewise. If both anchors are absent, it is the centre of mass of `b`. Default: the place of the
+    /// other anchor at the start.
     anchor_b: Option<LengthPair>,
-    /// Direction of the line in the frame of `a`; of any length but zero.
+    /// Direction of the line in the frame of `a`. Its length is not zero.
     axis: LengthPair,
     /// Least and greatest travel of `b` along the line, in metres or with a unit. Default: none.
     limits: Option<(Length, Length)>,
-    /// The share of its speed with which it comes back from a limit, 0 to 1. Default: 0, it stays there.
+    /// The share of its speed with which it comes back from a limit, 0 to 1. With 0 it stays there. Default: 0.
     #[serde(default)]
     restitution: Scalar,
-    /// The greatest friction, in N: below it the joint sticks. Not negative; 0 is none. Default: none.
+    /// The greatest friction, in N: below it the joint sticks. Not negative. 0 is no friction. Default: none.
     friction: Option<Force>,
-    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring: the frequency in Hz with which it swings, and its damping ratio. Default: it is not soft.
+    /// The frequency in Hz and the damping ratio with which it swings as a spring. Default: none.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
-    /// false, an open joint is an error.
+    /// Whether the engine moves bodies to close a joint that is open at the start. The card gives the distance. If not, an
+    /// open joint is an error. Default: false.
     #[serde(default)]
     assemble: bool,
 }

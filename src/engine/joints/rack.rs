@@ -19,7 +19,7 @@ struct Rack {
     name: Option<String>,
     /// The hinge and the slide, by name.
     of: (String, String),
-    /// Radius of the pinion in metres; negative for the other side. Not zero.
+    /// Radius of the pinion in metres. It is negative for the other side. Not zero.
     radius: Length,
 }
 
@@ -35,7 +35,7 @@ impl Entry for Rack {
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         coupling::check(&self.of, outline, report);
         if report.finite("radius", self.radius) && self.radius.si() == 0.0 {
-            report.error("radius", "nothing would be coupled").help("give `radius` a value that is not zero");
+            report.error("radius", "the rack would couple no motion").help("give `radius` a value that is not zero");
         }
     }
 

@@ -35,21 +35,21 @@ struct Revolute {
     anchor_b: Option<LengthPair>,
     /// Least and greatest angle of `b` relative to `a`, in radians or with a unit such as "90 deg". Default: none.
     limits: Option<(Angle, Angle)>,
-    /// The share of its speed with which it comes back from a limit, 0 to 1. Default: 0, it stays there.
+    /// The share of its speed with which it comes back from a limit, 0 to 1. With 0 it stays there. Default: 0.
     #[serde(default)]
     restitution: Scalar,
-    /// The greatest friction, in N m: below it the joint sticks. Not negative; 0 is none. Default: none.
+    /// The greatest friction, in N m: below it the joint sticks. Not negative. 0 is no friction. Default: none.
     friction: Option<Torque>,
-    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring, by a frequency in Hz and a damping ratio. The joint swings at that frequency by the mean of
-    /// both directions. Default: it is not soft.
+    /// The frequency in Hz and the damping ratio with which it swings as a spring. The frequency is that of the mean of
+    /// both directions. Default: none.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
-    /// false, an open joint is an error.
+    /// Whether the engine moves bodies to close a joint that is open at the start. The card gives the distance. If not, an
+    /// open joint is an error. Default: false.
     #[serde(default)]
     assemble: bool,
 }

@@ -16,7 +16,7 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Force, Length, LengthPair, Scalar};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
-/// A rope without mass: `anchor_a` of `a` and `anchor_b` of `b` are at most its length apart.
+/// A rope without mass: `anchor_a` of `a` and `anchor_b` of `b` are at most its length apart. A rope has no `softness`.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Rope {
@@ -34,10 +34,10 @@ struct Rope {
     anchor_b: Option<LengthPair>,
     /// Its length in metres. Above zero. Default: the distance at the start.
     length: Option<Length>,
-    /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. Default: 0, it stays taut.
+    /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. With 0 it stays taut. Default: 0.
     #[serde(default)]
     restitution: Scalar,
-    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]

@@ -17,7 +17,7 @@ use crate::forces::link::Partner;
 use crate::scene::units::{Force, LengthPair};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
-/// Holds two bodies in their relative pose at the start.
+/// A weld, which holds two bodies in their relative pose at the start.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Weld {
@@ -30,18 +30,19 @@ struct Weld {
     /// The anchor on `a` in its frame, in metres, from its centre of mass, or from the origin with `datum: Origin`.
     /// With `World` it is a point in the world. Default: the place of the other anchor at the start.
     anchor_a: Option<LengthPair>,
-    /// The anchor on `b`, likewise. Default: the place of the other anchor at the start; the centre of mass of `b` without both.
+    /// The anchor on `b`, likewise. If both anchors are absent, it is the centre of mass of `b`. Default: the place of the
+    /// other anchor at the start.
     anchor_b: Option<LengthPair>,
-    /// The force in N at which it breaks forever. Above zero; blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
     break_force: Option<Force>,
-    /// Makes it a spring, by a frequency in Hz and a damping ratio. The joint swings at that frequency by the mean of
-    /// both directions. Default: it is not soft.
+    /// The frequency in Hz and the damping ratio with which it swings as a spring. The frequency is that of the mean of
+    /// both directions. Default: none.
     softness: Option<Softness>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]
     collide: bool,
-    /// Whether bodies are moved to close a joint that is open at the start; the card gives the distance. Default:
-    /// false, an open joint is an error.
+    /// Whether the engine moves bodies to close a joint that is open at the start. The card gives the distance. If not, an
+    /// open joint is an error. Default: false.
     #[serde(default)]
     assemble: bool,
 }

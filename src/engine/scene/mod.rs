@@ -60,7 +60,7 @@ pub use section::{Entry, Section, WrittenEntry};
 
 /// Reads a scene and installs its sections.
 ///
-/// Everything is read and checked before anything is installed, so after an error the `App` is as it was.
+/// The reader checks the whole scene before it installs a part, so an error leaves the `App` unchanged.
 ///
 /// # Errors
 /// Those of [`Scene::read`].

@@ -15,12 +15,12 @@ use crate::world::Bodies;
 
 const QUANTITIES: &[&str] = &["acceleration.x", "acceleration.y", "angular_acceleration"];
 
-/// How fast the velocities of bodies change, by all forces on them: `T.acceleration.x`, `T.acceleration.y` in m/s2,
+/// The rates of the velocities of bodies, by all forces on them: `T.acceleration.x`, `T.acceleration.y` in m/s2,
 /// `T.angular_acceleration` in rad/s2. Before the first tick no force is known, and they are NaN.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Acceleration {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
 }
 

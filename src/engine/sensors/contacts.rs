@@ -18,13 +18,13 @@ use crate::tick::kept::SnapshotAppExt;
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
 
-/// How many bodies and walls touch a body or wall, `ball.contacts`. `ball.contacts.begun` counts the beginnings of such touches
-/// since the start. A body that settles parts and touches again many times. If the run locates events, each touch counts, however
-/// short. Otherwise those count that exist at the end of a tick.
+/// The number of bodies and walls that touch a body or wall, `ball.contacts`. `ball.contacts.begun` counts the beginnings
+/// of such touches since the start. A body that settles parts and touches again many times. If the run locates events, each
+/// touch counts, however short. Otherwise those count that exist at the end of a tick.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Contacts {
-    /// Bodies, `*` matches, and walls, which are named in full.
+    /// Bodies and walls. In names of bodies `*` stands for any letters.
     of: Names,
 }
 

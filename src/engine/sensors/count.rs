@@ -15,14 +15,14 @@ use crate::world::sections::Region;
 
 const QUANTITIES: &[&str] = &["count", "mass"];
 
-/// The number of bodies whose centres of mass are in a region, `bin.count`, and their mass in kg, `bin.mass`. `Counter` counts
-/// how often bodies touch others, `Flow` those that pass a line.
+/// The number of bodies whose centres of mass are in a region, `bin.count`, and their mass in kg, `bin.mass`. `Counter`
+/// counts touches of bodies, and `Flow` counts bodies that pass a line.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Count {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m. Default: everywhere.
     within: Option<Region>,

@@ -21,20 +21,20 @@ use crate::tick::{add_looker, add_packed_observer};
 
 const QUANTITIES: &[&str] = &["count", "count.net"];
 
-/// How often bodies began to touch others since the start, or passed a gate: `hits.count`. Of a gate `grains.count.net` is how
-/// often they passed it to the left, less how often to the right. Contacts count as in `Contacts`; passages are seen from tick to
-/// tick. `Period` counts how often a channel crosses a value.
+/// The number of touches that bodies began since the start, or of their passages through a gate: `hits.count`. For a gate
+/// `grains.count.net` is the number of passages to the left, less those to the right. Contacts count as in `Contacts`.
+/// Passages count from tick to tick. `Period` counts the crossings of a value by a channel.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Counter {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
-    /// The touched bodies, `*` matches, and walls, which are named in full. Either this or `gate`. Default: `gate` says what is
-    /// counted.
+    /// The touched bodies and walls. In names of bodies `*` stands for any letters. Write this or `gate`. Default: from
+    /// `gate`.
     touching: Option<Names>,
-    /// The two ends of a gate, in m. Either this or `touching`. Default: `touching` says what is counted.
+    /// The two ends of a gate, in m. Write this or `touching`. Default: from `touching`.
     gate: Option<(LengthPair, LengthPair)>,
 }
 
@@ -82,7 +82,7 @@ impl Entry for Counter {
         let help = "`touching: \"pin_*\"` counts contacts, `gate: ((-0.1, 0), (0.1, 0))` passages";
         match (&self.touching, &self.gate) {
             (Some(_), Some(_)) => {
-                report.error("gate", "`touching` and `gate` cannot both be given").help(help);
+                report.error("gate", "`touching` and `gate` exclude each other").help(help);
             }
             (None, None) => {
                 report.error("", "the field `touching` or `gate` is missing").help(help);

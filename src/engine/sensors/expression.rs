@@ -22,10 +22,11 @@ const QUANTITY: &str = "value";
 /// Symbols of units, each in place of its product of base units.
 const SYMBOLS: [&str; 12] = ["m/s", "m/s2", "rad/s", "rad/s2", "N", "J", "W", "N/m", "N s", "N m/rad", "kg/s", "1/s"];
 
-/// A number that is worked out of other channels: `gap.value`. In `of` stand names of channels, numbers with or without units, and the signs
-/// `+ - * / ^`. Comparisons, brackets and functions such as `sqrt`, `abs`, `min`, `max`, `hypot` and `if` may stand there too. Its unit follows
-/// from those of the channels: `heap.repose / 1 deg` is a plain number. Names with other signs than letters, digits and `_` stand in single
-/// quotes, parameters of the scene in braces. An expression may name others. It is NaN where a channel in it is.
+/// A number that follows from other channels: `gap.value`. In `of` stand names of channels, numbers with or without units,
+/// and the signs `+ - * / ^`. Comparisons, brackets and functions such as `sqrt`, `abs`, `min`, `max`, `hypot` and `if` may
+/// stand there too. Its unit follows from those of the channels: `heap.repose / 1 deg` is a plain number. Names with other
+/// signs than letters, digits and `_` stand in single quotes, parameters of the scene in braces. An expression may name
+/// others. It is NaN where a channel in it is.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Expression {
@@ -65,7 +66,7 @@ impl Entry for Expression {
         match Formula::new(self.of.as_str()).names() {
             Ok(names) if names.is_empty() => {
                 let help = "name a channel in it, such as `ball.position.x`";
-                report.error("of", "there is no channel in this expression: its value would never change").help(help);
+                report.error("of", "this expression names no channel: its value would never change").help(help);
             }
             Ok(names) => names.iter().collect::<BTreeSet<_>>().into_iter().for_each(|name| {
                 check_channel(name, "of", outline, report);

@@ -21,22 +21,23 @@ use crate::tick::{Clock, State, add_looker};
 
 const QUANTITIES: &[&str] = &["count", "mass", "count.rate", "mass.rate"];
 
-/// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates over a time window
-/// are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes where its centre of mass crosses the line between the two ends,
-/// seen from tick to tick. Left is the left hand of a walk from the first end to the second.
+/// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates
+/// over a time window are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes if its centre of mass crosses
+/// the line between the two ends, seen from tick to tick. Left is the left hand of a walk from the first end to the second.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Flow {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// The two ends of the gate, in m.
     gate: (LengthPair, LengthPair),
-    /// Which passages count, and with which sign. Default: `Net`.
+    /// The passages that count, with their signs. Default: `Net`.
     #[serde(default)]
     direction: Direction,
-    /// The time window of the rates in s, rounded to whole ticks. Above zero. Earlier in the run it begins at the start. Default: 0.5.
+    /// The time window of the rates in s, rounded to whole ticks, at least one. Above zero. Earlier in the run it begins at
+    /// the start. Default: 0.5.
     #[serde(default = "half_a_second")]
     window: Time,
 }

@@ -54,9 +54,9 @@ const QUANTITIES: &[&str] = &[
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Force {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
-    /// The part to be measured. Default: `Total`.
+    /// The part that the sensor measures. Default: `Total`.
     #[serde(default)]
     part: Part,
 }

@@ -33,7 +33,7 @@ impl Group {
         &self.of
     }
 
-    /// Which of its bodies are in the region: number in the group and index among all bodies.
+    /// The bodies of the group in the region: number in the group and index among all bodies.
     pub fn present<'a>(&'a self, world: &'a World) -> impl Iterator<Item = (usize, usize)> + 'a {
         let bodies = world.resource::<State>().bodies();
         let is_within =

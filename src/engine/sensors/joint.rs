@@ -16,15 +16,14 @@ use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["angle", "travel", "rate", "force.x", "force.y", "torque", "force", "drift"];
 
-/// The free motion of joints and the forces that they bear: `hip.angle` in rad (`piston.travel` in m for a slide)
-/// and `hip.rate`; `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m on `b` at its anchor, not known and
-/// NaN before the first tick; `hip.drift` in m, how far it is from what it holds. Gears have one channel,
-/// `mesh.torque` in N m on `b` of the second hinge. A rack has one, `mesh.force` in N on `b` of the slide, along
-/// its axis.
+/// The free motion of joints and the forces that they bear. A hinge has `hip.angle` in rad, a slide `piston.travel` in m, and
+/// both have `hip.rate`. The reaction on `b` at its anchor is `hip.force.x`, `hip.force.y` in N and `hip.torque` in N m.
+/// Before the first tick the reaction is NaN. The error of the constraint is `hip.drift` in m. Gears have one channel,
+/// `mesh.torque` in N m on `b` of the second hinge. A rack has one, `mesh.force` in N on `b` of the slide, along its axis.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joint {
-    /// The joints, `*` matches.
+    /// The joints. `*` stands for any letters.
     of: Names,
 }
 

@@ -18,14 +18,15 @@ use crate::world::sections::Region;
 
 const QUANTITIES: &[&str] = &["mean", "deviation", "least", "greatest"];
 
-/// The mean of a quantity over a group of bodies, each with the same weight: `bed.mean`. `bed.deviation` is the standard deviation of the group,
-/// `bed.least` and `bed.greatest` are its extremes. All have the unit of the quantity, and are NaN where the group is empty.
+/// The mean of a quantity over a group of bodies, each with the same weight: `bed.mean`. `bed.deviation` is the standard
+/// deviation of the group, `bed.least` and `bed.greatest` are its extremes. All have the unit of the quantity, and are NaN
+/// if the group is empty.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Mean {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
     /// The quantity of each body, such as `"speed"` or `"position.y"`.
     quantity: String,

@@ -351,8 +351,8 @@ pub fn plugin(app: &mut App) {
     app.register_entry_section("sensors", Arity::List, "sensors: [Pose(of: \"ball\"), Energy()]");
     app.describe_section(
         "sensors",
-        "Quantities to measure. Each number is a channel, `name.quantity`, and a column of the CSV. Channels are read at ticks; under \
-         a `tolerance` or `method: Reference` those are the frames of the film.",
+        "Quantities to measure. Each number is a channel, `name.quantity`, and a column of the CSV. Sensors read channels at \
+         ticks. Under a `tolerance` or `method: Reference` ticks are the frames of the film.",
     );
     pose::plugin(app);
     velocity::plugin(app);

@@ -15,12 +15,12 @@ use crate::tick::State;
 
 const QUANTITIES: &[&str] = &["torque", "power"];
 
-/// The torques and powers of motors and controllers: `drive.torque` in N m, of a slide a force in N, and the power
-/// `drive.power` in W. Before the first tick both are not known and NaN.
+/// The torques and powers of motors and controllers. `drive.torque` is in N m, or for a slide a force in N. `drive.power` is
+/// in W. Before the first tick both are NaN.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Motor {
-    /// The controllers, `*` matches.
+    /// The controllers. `*` stands for any letters.
     of: Names,
 }
 

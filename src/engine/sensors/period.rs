@@ -16,9 +16,9 @@ use crate::tick::{State, add_looker};
 
 const QUANTITIES: &[&str] = &["period", "period.mean", "crossings", "crossings.last"];
 
-/// How often a channel crosses a value upwards: `swing.crossings`. `swing.crossings.last` is the time of the last crossing in s,
-/// and NaN before the first. `swing.period` is the duration of the last period in s, `swing.period.mean` the mean of all periods.
-/// Both are NaN before the second crossing.
+/// The crossings of a value upwards by a channel, and their period. `swing.crossings` is their number.
+/// `swing.crossings.last` is the time of the last crossing in s, and NaN before the first. `swing.period` is the duration
+/// of the last period in s, `swing.period.mean` the mean of all periods. Both are NaN before the second crossing.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Period {

@@ -15,7 +15,7 @@ const QUANTITIES: &[&str] = &["position.x", "position.y", "angle"];
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Pose {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
 }
 

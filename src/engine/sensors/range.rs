@@ -23,8 +23,8 @@ use jostle_shapes::{Hull, Pose, ray};
 const QUANTITIES: &[&str] = &["range"];
 
 /// The distance in m along a ray from a body to the first other body or wall: `eye.range`. It is infinite if the ray meets
-/// nothing within its `reach`, and zero if it begins inside something. Lines, and strips with one side, are open from behind. A
-/// line that goes around a region clockwise makes it a block of ground.
+/// no body or wall within its `reach`. It is zero if it begins inside one. Lines, and strips with one side, are open from
+/// behind. A line that goes around a region clockwise makes it a block of ground.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Range {
@@ -38,7 +38,7 @@ struct Range {
     /// The direction of the ray in the body's frame, counter-clockwise from its x axis, in rad. Default: 0.
     #[serde(default)]
     angle: Angle,
-    /// The farthest that it sees, in m. Default: as far as there is something.
+    /// The greatest distance that it sees, in m. Default: none.
     reach: Option<Length>,
 }
 

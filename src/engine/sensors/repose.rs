@@ -31,21 +31,22 @@ const QUANTITIES: &[&str] = &["repose", "repose.left", "repose.right"];
 /// A line is fitted to at least this many points, because two points always have a line through both.
 const FEWEST: usize = 3;
 
-/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks, `heap.repose` is
-/// their mean. The heap is cut into upright columns. In each of them the highest point of a body is a point of the free surface.
-/// Least squares fit a straight line to the points of a flank. An angle is positive where the flank rises to the summit. A flank
-/// with fewer than three points is NaN, and the mean is then that of the other flank.
+/// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks,
+/// `heap.repose` is their mean. The heap is cut into upright columns. In each of them the highest point of a body is a
+/// point of the free surface. Least squares fit a straight line to the points of a flank. An angle is positive if the flank
+/// rises to the summit. A flank with fewer than three points is NaN, and the mean is then that of the other flank.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Repose {
     /// Its name: that of its channels.
     name: String,
-    /// The bodies of the heap, `*` matches.
+    /// The bodies of the heap. `*` stands for any letters.
     of: Names,
     /// Only bodies whose centre of mass is in this region count. It is two opposite corners of a box, or the corners of a polygon
     /// in order, in m. Default: everywhere.
     within: Option<Region>,
-    /// Only bodies that are slower count, in m/s: bodies that still fall are no part of the heap. Above zero. Default: all bodies count.
+    /// Only bodies that are slower count, in m/s: bodies that still fall are no part of the heap. Above zero. Default:
+    /// none.
     slower_than: Option<Speed>,
     /// The width of the columns in m. Above zero. Default: the width of the largest of the bodies.
     column: Option<Length>,

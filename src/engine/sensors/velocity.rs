@@ -14,12 +14,12 @@ const COLUMNS: &[&str] = &["velocity.x", "velocity.y", "spin"];
 /// The quantities that plots and expectations may name.
 const QUANTITIES: &[&str] = &["velocity.x", "velocity.y", "spin", "speed"];
 
-/// How fast bodies move and turn: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s. Plots and expectations may also name
-/// `T.speed`, in m/s.
+/// The velocities and spins of bodies: `T.velocity.x`, `T.velocity.y` in m/s, `T.spin` in rad/s. Plots and expectations may
+/// also name `T.speed`, in m/s.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocity {
-    /// The bodies, `*` matches.
+    /// The bodies. `*` stands for any letters.
     of: Names,
 }
 

@@ -165,7 +165,7 @@ pub fn of_parts(
     };
     let mut atoms: Vec<AtomSpec> = specs.to_vec();
     let (mut hulls, mut intangible) = (Vec::new(), Vec::new());
-    // A body of which nothing touches does not touch as a whole.
+    // If no atom of a body touches, the body does not touch.
     let none_touches = specs.is_empty() && !parts.iter().any(|part| part.collides);
     for part in parts {
         let to = if part.collides || none_touches { &mut hulls } else { &mut intangible };

@@ -83,6 +83,6 @@ shapes! {
     List(list::DiscList),
     /// `Disc(radius: 0.2)`: one disc.
     Disc(disc::OneDisc),
-    /// `Png(file: "example:cow.png", height: 1.5, count: 60)`: a silhouette covered by discs.
+    /// `Png(file: "example:cow.png", height: 1.5, count: 60)`: discs that cover a silhouette.
     Png(png::Png),
 }

@@ -27,7 +27,7 @@ pub struct Picture {
     /// The stiffness of each disc in N/m. Above zero. Default: the material's.
     #[serde(default)]
     pub stiffness: Option<Stiffness>,
-    /// The rows from the top. They may differ in length; all begin at the same column.
+    /// The rows from the top. They may differ in length, and all begin at the same column.
     pub rows: Vec<String>,
 }
 

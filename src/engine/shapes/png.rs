@@ -24,12 +24,12 @@ pub const MOST_ATOMS: u64 = 5000;
 pub struct Png {
     /// The picture: a path from the folder of the file with this entry. `example:cow.png` comes with the program.
     pub file: String,
-    /// How high the silhouette is, in m; margins of the picture do not count. Above zero.
+    /// The height of the silhouette, in m. Margins of the picture do not count. Above zero.
     pub height: Length,
-    /// At most this many discs of different sizes, from 1 to 5000. Either this or `radius`. Default: from `radius`.
+    /// At most this many discs of different sizes, from 1 to 5000. Write this or `radius`. Default: from `radius`.
     #[serde(default)]
     pub count: Option<WholeNumber>,
-    /// Discs of this radius in m, side by side. Above zero. Either this or `count`. Default: from `count`.
+    /// Discs of this radius in m, side by side. Above zero. Write this or `count`. Default: from `count`.
     #[serde(default)]
     pub radius: Option<Length>,
     /// The stiffness of each disc in N/m. Above zero. Default: the material's.
@@ -66,7 +66,7 @@ impl Png {
             }
             if self.count.is_some() == self.radius.is_some() {
                 let message = if self.count.is_some() {
-                    "`count` and `radius` cannot both be given"
+                    "`count` and `radius` exclude each other"
                 } else {
                     "the field `count` or `radius` is missing"
                 };

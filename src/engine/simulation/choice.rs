@@ -56,7 +56,7 @@ pub struct Plan {
     pub tick: f64,
     /// Steps of a tick.
     pub pace: StepPace,
-    /// How finely steps are made beside that.
+    /// The fineness of steps beside that.
     pub detail: Detail,
     /// When forces jump.
     pub events: EventTiming,
@@ -125,11 +125,11 @@ fn goal(clock: &ClockSection, overrides: &Overrides, notes: &mut Vec<String>) ->
     }
     let left_out = match (reference, overrides.tick) {
         (true, _) => ClockSection::REFERENCE_HAS_NONE,
-        (false, Some(_)) => "a tick was given in its place",
+        (false, Some(_)) => "the command line gives a tick in its place",
         (false, None) => return Ok(clock.tolerance.map(|tolerance| Goal::Tolerance(tolerance.si()))),
     };
     if let Some(tolerance) = clock.tolerance {
-        notes.push(format!("the tolerance {:?} of the scene is left out: {left_out}", tolerance.si()));
+        notes.push(format!("the run leaves out the tolerance {:?} of the scene: {left_out}", tolerance.si()));
     }
     Ok(reference.then_some(Goal::Reference))
 }
@@ -150,7 +150,7 @@ pub(super) fn order(world: &World, plan: &Plan) -> u32 {
     method.map_or(1, |method| method.order)
 }
 
-/// How many steps of a tick suit the fastest contact or spring.
+/// The number of steps of a tick that suits the fastest contact or spring.
 pub(super) fn steps_per_tick(world: &World, plan: &Plan) -> u32 {
     let wanted = chosen_tick(world).map_or(plan.tick, |(tick, _)| tick);
     (plan.tick / wanted).ceil().clamp(1.0, f64::from(u32::MAX)) as u32
@@ -326,7 +326,7 @@ fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<()
     if method.symplectic && !follows && state.models_of::<Joint>().next().is_some() {
         let name = method.name;
         notes.push(format!(
-            "{name} brings states back onto the joints behind each step: it keeps its order, but is not symplectic here"
+            "{name} puts states back onto the joints after each step. It keeps its order, but is not symplectic here"
         ));
     }
     world.insert_resource(ChosenMethod { name: method.name, located, mode });
@@ -345,11 +345,12 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
 /// Forty ticks per half period of the fastest response, or twenty for contacts among many bodies. The tick is rounded
 /// down to few digits.
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
-    let coarsest = (COARSEST_TICK, "nothing in the scene asks for a finer one");
+    let coarsest = (COARSEST_TICK, "the scene has no contacts, springs or drives that ask for a finer one");
     let state = world.resource::<State>();
     let is_crowd = state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD;
     let (in_contact, digits, contact) = if is_crowd {
-        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of a crowd; `--tick` foretells paths for longer";
+        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of a crowd. A shorter `--tick` \
+        foretells paths for longer";
         (TICKS_PER_CONTACT_IN_A_CROWD, &DIGITS_IN_A_CROWD[..], why)
     } else {
         (TICKS_PER_HALF_PERIOD, &DIGITS[..], "the stiffest contact lasts at least 40 of them")

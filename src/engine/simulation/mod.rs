@@ -185,7 +185,7 @@ impl Simulation {
         scene::found_later(&self.world, &self.origin.source, vec![error])
     }
 
-    /// How it is run: with [`Overrides::plan`] another run of the scene is like it, and needs no trials.
+    /// The plan of its run. With [`Overrides::plan`] another run of the scene is like it, and needs no trials.
     pub fn plan(&self) -> Option<&Plan> {
         self.unpublished_world().get_resource()
     }
@@ -396,7 +396,7 @@ fn look_at_frames(world: &mut World) {
     let Some(mut expectations) = world.get_resource_mut::<Expectations>() else { return };
     expectations.look_at_all_ticks();
     if expectations.sample() {
-        let note = format!("expectations look every {spacing} s, at each frame: they do not see the time between");
+        let note = format!("expectations look every {spacing} s, at each frame. They do not see the time between");
         world.resource_mut::<Notes>().0.push(note);
     }
 }

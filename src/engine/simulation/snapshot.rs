@@ -34,12 +34,12 @@ struct Header {
     version: String,
     /// The digest of the scene's text with all that it includes.
     scene: u64,
-    /// How the scene is run: method, tick, steps.
+    /// The plan of the run: method, tick, steps.
     plan: String,
     /// Systems of users in the tick.
     systems: Vec<String>,
     ticks: u64,
-    /// How often forces were evaluated so far.
+    /// The number of times that forces were evaluated so far.
     evaluations: u64,
 }
 
@@ -197,13 +197,13 @@ impl Simulation {
         let of = &snapshot.header;
         if of.version != version {
             return Err(UnfitSnapshot(format!(
-                "the snapshot was written by version {}, this is version {version}",
+                "version {} wrote the snapshot, and this is version {version}",
                 of.version
             )));
         }
         if of.scene != scene {
             return Err(UnfitSnapshot(
-                "the snapshot is of another scene, or of this one before it was changed, be it a comment".to_owned(),
+                "the snapshot is of another scene, or of another text of this one, be it only a comment".to_owned(),
             ));
         }
         if of.plan != plan {
@@ -211,8 +211,8 @@ impl Simulation {
             let (theirs, own) = (words(&of.plan), words(&plan));
             return Err(UnfitSnapshot(if theirs == own {
                 format!(
-                    "both runs go by {own}, but with other steps inside them: a tolerance chooses these from the whole run, so give both \
-                     runs the same tolerance and duration"
+                    "both runs go by {own}, but with other steps inside them. A tolerance chooses these from the whole run: \
+                     give both runs the same tolerance and duration"
                 )
             } else {
                 format!("the snapshot's run goes by {theirs}, this one by {own}")

@@ -245,7 +245,7 @@ impl State {
         self.turn_to(TickPart::Between);
     }
 
-    /// Something reads components between ticks: they are brought up to date after each batch.
+    /// Asks for components that are up to date after each batch, for systems that read them between ticks.
     pub(crate) fn show_components(&mut self) {
         self.progress.shown = true;
     }

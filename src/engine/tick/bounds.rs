@@ -64,7 +64,7 @@ pub struct Bounds {
     angle: Vec<f64>,
     /// The value of [`Bodies::path`] below which no body can have left half the margin. NaN: unknown.
     path: f64,
-    /// How many candidate pairs were found with the boxes.
+    /// The number of candidate pairs that were found with the boxes.
     pub candidates: usize,
     /// Evaluations since the boxes were made.
     age: u64,

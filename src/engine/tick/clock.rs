@@ -36,9 +36,9 @@ pub struct Evaluation {
     pub time: f64,
     /// Seconds since the state that was last accepted: how far `Bodies::drift` reaches back.
     pub elapsed: f64,
-    /// How contacts and other models with a history are to be evaluated.
+    /// The style in which methods evaluate contacts and other models with a history.
     pub mode: EvaluationMode,
-    /// How often forces were evaluated so far: the cost of a method.
+    /// The number of times that forces were evaluated so far: the cost of a method.
     // It depends on how a run is cut into batches, and decides nothing.
     #[serde(skip)]
     pub count: u64,

@@ -59,12 +59,12 @@ impl Tick<'_> {
         self.state
     }
 
-    /// How many steps were made so far, to be counted by methods that make their own.
+    /// The number of steps so far, for methods that make their own.
     pub fn steps(&mut self) -> &mut StepCount {
         &mut self.state.steps
     }
 
-    /// How many events were located so far.
+    /// The number of located events so far.
     pub fn located(&mut self) -> &mut LocatedEvents {
         &mut self.state.located
     }
@@ -396,7 +396,7 @@ impl Tick<'_> {
     }
 }
 
-/// How far any point of a body may travel within `length` seconds by its present velocity and acceleration, in metres.
+/// The way in metres of the fastest point of a body within `length` seconds, by its present velocity and acceleration.
 fn farthest_in(bodies: &Bodies, length: f64) -> f64 {
     let travel = |body: usize| {
         let (velocity, force) = (bodies.velocity[body].length(), bodies.force[body].length());

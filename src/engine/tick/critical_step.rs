@@ -49,7 +49,7 @@ struct Scaled {
 #[derive(Debug, Default, Serialize, Deserialize)]
 pub struct Springs {
     list: Vec<Spring>,
-    /// How many of them are contacts: they come first.
+    /// The number of contacts among them: they come first.
     contacts: usize,
     /// For each spring the slots of both sides; [`IMMOVABLE`] for sides that do not move by forces.
     slots: Vec<(u32, u32)>,

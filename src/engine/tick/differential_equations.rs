@@ -164,7 +164,7 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         self.dynamic.iter().map(|&body| bodies.position[body].abs().max_element()).fold(0.0, f64::max)
     }
 
-    /// How far bodies can get from the state that was evaluated last.
+    /// The greatest distance of bodies from the state of the last evaluation.
     pub fn reach(&self) -> Reach {
         let bodies = &self.tick.state.bodies;
         self.dynamic.iter().fold(Reach::default(), |reach, &body| {

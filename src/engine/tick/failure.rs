@@ -82,7 +82,7 @@ impl FailureKind {
 }
 
 impl Failure {
-    /// Something is gone without which there are no ticks, nor a time.
+    /// A part of the world without which no tick runs is gone.
     pub(super) fn gone(name: &'static str) -> Self {
         Self { body: String::new(), other: String::new(), wrong: FailureKind::Gone(name), tick: 0, time: 0.0 }
     }
@@ -95,7 +95,7 @@ impl std::fmt::Display for Failure {
             FailureKind::Gone(name) => {
                 return write!(
                     f,
-                    "{name} is gone, without which there are no ticks: put it back as it was, or load the scene again"
+                    "{name} is gone, and no tick runs without it. Put it back as it was, or load the scene again"
                 );
             }
             FailureKind::Pairs(most) => {
@@ -124,7 +124,7 @@ impl std::fmt::Display for Failure {
                 format!(": the acceleration of `{body}` grows beyond all bounds")
             }
             FailureKind::Joint { meters, dead } => {
-                write!(f, "a joint of `{body}` cannot be closed, {} m are left,", number(*meters))?;
+                write!(f, "a joint of `{body}` does not close, {} m are left,", number(*meters))?;
                 match dead {
                     true => ": its loop is at a dead point, where bars are in line and the way on is not determined"
                         .to_owned(),
@@ -133,31 +133,31 @@ impl std::fmt::Display for Failure {
             }
             FailureKind::Crossed(_) => {
                 write!(f, "`{body}` has passed through `{other}`")?;
-                ": its contact is too soft for that speed, or the tick too long; give it more `stiffness`, a strip more \
+                ": its contact is too soft for that speed, or the tick is too long. Give it more `stiffness`, a strip more \
                  `thickness`, or a shorter `tick`"
                     .to_owned()
             }
             FailureKind::Behind(_) => {
                 write!(f, "`{body}` has come through `{other}` from behind, where it is open,")?;
                 format!(
-                    ": only its other side holds bodies; let `{body}` begin on that side, turn the points of `{other}` \
-                     around, or give a strip `sides: Both`"
+                    ": only its other side holds bodies. Let `{body}` begin on that side, reverse the points of `{other}`, or \
+                     give a strip `sides: Both`"
                 )
             }
             FailureKind::Sunk(_) => {
                 write!(f, "a sharp corner has sunk too deep between `{body}` and `{other}`")?;
-                ": the side that it came through is not known; give them a `rounding` of some hundredths of their size, \
-                 or more `stiffness`"
+                ": the side that it came through is not known. Give them a `rounding` of some hundredths of their size, or \
+                 more `stiffness`"
                     .to_owned()
             }
             FailureKind::Contradiction => {
                 write!(f, "motors and joints ask for different motions of `{body}`")?;
-                ": no velocity suits them all; give a motor a `limit`".to_owned()
+                ": no velocity suits them all. Give a motor a `limit`".to_owned()
             }
             FailureKind::Energy(Created { energy, put_in }) => {
                 write!(
                     f,
-                    "energy came out of nowhere, {energy:.1e} J where {put_in:.1e} J were put in, most of it in `{body}`,"
+                    "energy came out of nowhere, {energy:.1e} J beside {put_in:.1e} J that were put in, most of it in `{body}`,"
                 )?;
                 String::new()
             }

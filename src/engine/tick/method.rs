@@ -8,7 +8,7 @@ pub trait Integrator: Send + Sync + 'static {
     /// Advances the state by `tick.dt`.
     fn advance(&mut self, tick: &mut Tick);
 
-    /// How it wants models with a history to be evaluated.
+    /// The style in which it evaluates models with a history.
     fn mode(&self) -> EvaluationMode {
         EvaluationMode::Following
     }

@@ -312,7 +312,7 @@ pub struct Indicator {
     pub value: f64,
     /// Its rate per second there; NaN if the rate is unknown.
     pub slope: f64,
-    /// How strongly it may bend downwards there: its second derivative, per second squared, is not below minus this.
+    /// A bound of its curvature there: its second derivative, per second squared, is not below minus this.
     pub bend: f64,
     /// The rounding error of its value: above minus this it has not vanished. Default: zero.
     pub rounding: f64,
@@ -336,7 +336,7 @@ pub struct Departure {
 pub struct Rhythm {
     /// Its path in the scene, such as `forces[0]`.
     pub path: String,
-    /// How fast it swings, in rad/s; zero if it does not.
+    /// Its angular frequency, in rad/s, or zero if it does not swing.
     pub angular_frequency: f64,
 }
 

@@ -163,7 +163,7 @@ pub struct CandidatePairs {
     pub atoms_before: Vec<u32>,
     /// For each item of `surfaces` its index in the list before, or [`NEW`].
     pub surfaces_before: Vec<u32>,
-    /// How the pairs of atoms were found.
+    /// The search that found the pairs of atoms.
     pub search: Search,
 }
 

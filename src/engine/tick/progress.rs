@@ -22,7 +22,7 @@ pub(super) struct Progress {
     /// The schedule of the tick, as long as the world is not open to others.
     #[serde(skip)]
     pub sim: Option<Box<Schedule>>,
-    /// Something reads components after each batch.
+    /// Whether systems read components after each batch.
     #[serde(skip)]
     pub shown: bool,
     /// Components hold the state of an earlier tick.

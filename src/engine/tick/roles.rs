@@ -15,7 +15,7 @@ pub(super) struct Roles {
     pub edges: Vec<usize>,
     /// Places of models with an account of their own, and of that account in the ledger.
     pub accounts: Vec<(usize, usize)>,
-    /// How many are neither contact laws nor their search for pairs; those follow.
+    /// The number of those that are neither contact laws nor their search for pairs; those follow.
     pub others: usize,
     pub velocity_dependent: bool,
     pub velocity_forces: bool,

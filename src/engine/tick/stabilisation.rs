@@ -20,7 +20,7 @@ pub struct JointDrift {
     pub meters: f64,
     /// The index of the model that holds it.
     pub model: usize,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 

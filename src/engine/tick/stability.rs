@@ -92,7 +92,7 @@ pub struct Fastest {
     pub body: Entity,
     /// Its holder.
     pub holder: Holder,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 
@@ -103,7 +103,7 @@ pub struct Briefest {
     pub angular_frequency: f64,
     /// The two sides of the contact.
     pub between: (Entity, Entity),
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 
@@ -131,7 +131,7 @@ impl Fastest {
 }
 
 impl Briefest {
-    /// How long the contact lasts, in seconds.
+    /// The duration of the contact, in seconds.
     pub fn duration(&self) -> f64 {
         PI / self.angular_frequency
     }

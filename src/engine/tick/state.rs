@@ -56,7 +56,7 @@ pub struct State {
     pub(crate) springs: SteadySprings,
     pub(crate) steps: StepCount,
     pub(crate) located: LocatedEvents,
-    /// How many systems of users make forces.
+    /// The number of systems of users that make forces.
     pub(crate) force_systems: usize,
     pub(super) progress: Progress,
     #[serde(skip)]
@@ -177,7 +177,7 @@ impl State {
         self.progress.alone
     }
 
-    /// Which stages there are.
+    /// The stages of the tick.
     pub(super) fn stages(&self) -> Stages {
         let Roles { find_pairs, rows, settle, begin_step, .. } = &self.roles;
         Stages {
@@ -498,12 +498,12 @@ impl State {
         self.touches.as_ref()
     }
 
-    /// How many events were located inside ticks so far.
+    /// The number of located events inside ticks so far.
     pub fn located(&self) -> LocatedEvents {
         self.located
     }
 
-    /// How many steps were made and thrown away so far.
+    /// The numbers of accepted and of rejected steps so far.
     pub fn steps(&self) -> StepCount {
         self.steps
     }

@@ -16,7 +16,7 @@ pub struct Overlap {
     pub share: f64,
     /// The two bodies or the body and the wall.
     pub between: Option<(Entity, Entity)>,
-    /// When, in seconds.
+    /// The time in seconds.
     pub time: f64,
 }
 

@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 pub struct FarTravel {
     /// The body.
     pub body: Entity,
-    /// How far any of its points travelled, in metres.
+    /// The distance that any of its points travelled, in metres.
     pub travel: f64,
     /// The end of that tick in seconds.
     pub time: f64,

@@ -41,7 +41,7 @@ pub fn atoms_of(world: &World, body: Entity) -> impl Iterator<Item = Atom> {
     own.into_iter().chain(others.iter().filter_map(|&atom| world.get(atom).copied()))
 }
 
-/// How many atoms there are.
+/// The number of atoms.
 pub(crate) fn count_atoms(world: &mut World) -> usize {
     world.query_filtered::<(), With<Atom>>().iter(world).count()
 }

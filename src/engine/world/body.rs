@@ -29,7 +29,7 @@ pub enum Motion {
 pub struct Body {
     /// Place in the canonical order: the order of the scene, later spawns after it. Two bodies never share a key.
     pub key: u64,
-    /// How it moves.
+    /// Its motion.
     pub motion: Motion,
     /// Whether its atoms touch anything.
     pub collides: bool,

@@ -171,7 +171,7 @@ impl<'a> Chunk<'a> {
         (V::load(&self.inverse_mass[first..]), V::load(&self.inverse_inertia[first..]))
     }
 
-    /// Which of them move by forces.
+    /// The bodies among them that move by forces.
     #[inline(always)]
     pub fn moving<V: Lanes>(&self, first: usize) -> V::Mask {
         let (zero, one) = (V::splat(0.0), V::splat(1.0));
@@ -278,7 +278,7 @@ impl<W: PerBody> Kernel for All<'_, W> {
     }
 }
 
-/// How many parts a list is cut into that takes so much work: a function of that alone.
+/// The number of parts of a list that takes so much work. It depends on the work alone.
 pub(crate) fn parts_of(work: usize, fewest: usize) -> usize {
     (work / fewest).clamp(1, MOST)
 }

@@ -119,7 +119,7 @@ pub(crate) struct Passing {
 }
 
 impl Bodies {
-    /// How many bodies are in free flight and need no work for that, see `flight.rs`.
+    /// The number of bodies that are in free flight and need no work for that, see `flight.rs`.
     pub fn flying(&self) -> usize {
         self.flights.starts.len() - self.flights.bound.len()
     }

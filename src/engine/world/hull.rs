@@ -67,7 +67,7 @@ pub struct PackedHull {
     pub(crate) rounded: Option<Rounded>,
     /// Half of its least width in metres.
     pub half_width: f64,
-    /// How far it reaches from the centre of mass, in metres.
+    /// The distance that it reaches from the centre of mass, in metres.
     pub extent: f64,
     /// The middle of its corners, and how far it reaches from there, in metres.
     pub(crate) circle: (DVec2, f64),
@@ -258,7 +258,7 @@ impl Bodies {
         self.nearest_on(packed.body as usize, &packed.hull, at)
     }
 
-    /// How much farther in metres sharp corners may be from a hull than it and they are as they meet.
+    /// The greatest distance in metres of sharp corners from a hull, beyond that at their meeting.
     pub(crate) fn spread(&self, hull: usize, atom: usize) -> f64 {
         let own = self.hull_of(atom).and_then(|own| self.hulls[own].rounded.as_ref());
         own.filter(|_| self.hulls[hull].rounded.is_some()).map_or(0.0, |own| own.spread)

@@ -29,7 +29,7 @@ impl Keys {
         key + (index - first) as u64
     }
 
-    /// How many there are.
+    /// The number of them.
     pub(crate) fn count(&self) -> usize {
         self.len
     }

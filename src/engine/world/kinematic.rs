@@ -144,7 +144,7 @@ pub struct Kinematic {
     pub angle: f64,
     /// The body's centre of mass from that point, in the body's frame, in metres.
     pub center: DVec2,
-    /// How that point moves, and how the body turns about it.
+    /// The motion of that point, and the turn of the body about it.
     pub path: Path,
 }
 

@@ -56,7 +56,7 @@ struct Joint {
 pub struct PackedLine {
     /// Place of its first piece among the walls.
     pub first: u32,
-    /// How many pieces it has.
+    /// The number of pieces that it has.
     pub count: u32,
     /// The joint before each piece, and the one behind the last; `None` at an end of the line.
     joints: Vec<Option<Joint>>,
@@ -348,7 +348,7 @@ impl Bodies {
         }
     }
 
-    /// How many walls there are, each line counted once.
+    /// The number of walls, each line counted once.
     pub fn wall_count(&self) -> usize {
         let pieces: u32 = self.lines.iter().map(|line| line.count).sum();
         self.walls.len() + self.lines.len() - pieces as usize

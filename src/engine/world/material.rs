@@ -31,7 +31,7 @@ pub struct Material {
     pub friction_static: f64,
     /// Coefficient of dynamic friction. Default: 0.
     pub friction_dynamic: f64,
-    /// How it rebounds. Default: nothing is lost.
+    /// Its rebound. Default: no loss.
     pub rebound: Rebound,
     /// Mass per area in kg/m2, for atoms without a mass. Default: 1.
     pub density: f64,
@@ -56,7 +56,7 @@ impl Default for Material {
 /// The rebound of a material, in the form of the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Rebound {
-    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (nothing is lost).
+    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (no loss).
     Restitution(f64),
     /// The share by which the normal force is greater while loading, and less while unloading. It runs from 0 (no loss)
     /// to 1 (no rebound).
@@ -287,7 +287,7 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
         report.between("inelasticity", inelasticity, 0.0, 1.0);
     }
     if restitution.is_some() && inelasticity.is_some() {
-        let message = "`restitution` and `inelasticity` say the same thing; only one of them may stand";
+        let message = "`restitution` and `inelasticity` say the same: write one of them";
         report.error("inelasticity", message).help("remove one of the two");
     }
 }
@@ -301,10 +301,10 @@ pub struct MaterialEntry {
     pub stiffness: Option<Stiffness>,
     /// Coefficient of friction, not below zero: one number, or one for holding and one for slipping. Default: 0.
     pub friction: Option<Friction>,
-    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (nothing is lost). Default: 1, or what
-    /// follows from `inelasticity`.
+    /// Ratio of the speeds after and before an impact, from 0 (no rebound) to 1 (no loss). Default: 1, or what follows from
+    /// `inelasticity`.
     pub restitution: Option<Scalar>,
-    /// Inelasticity, from 0 (nothing is lost) to 1 (no rebound); instead of `restitution`. Default: 0.
+    /// Inelasticity, from 0 (no loss) to 1 (no rebound). It stands instead of `restitution`. Default: 0.
     pub inelasticity: Option<Scalar>,
     /// Mass per area in kg/m2, for atoms without a mass of their own. Above zero. Default: 1.
     pub density: Option<Density>,
@@ -379,15 +379,15 @@ impl Section for MaterialsSection {
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Pair")]
 pub struct PairEntry {
-    /// The two materials, in either order; they may be the same.
+    /// The two materials, in either order. They may be the same.
     pub between: (String, String),
     /// Coefficient of friction, in the form of a material. Default: the means.
     #[serde(default)]
     pub friction: Option<Friction>,
-    /// Ratio of the speeds after and before an impact, from 0 to 1. Default: see `inelasticity`.
+    /// Ratio of the speeds after and before an impact, from 0 to 1. Default: from `inelasticity`.
     #[serde(default)]
     pub restitution: Option<Scalar>,
-    /// Inelasticity, from 0 to 1; instead of `restitution`. Default: the mean.
+    /// Inelasticity, from 0 to 1. It stands instead of `restitution`. Default: the mean.
     #[serde(default)]
     pub inelasticity: Option<Scalar>,
 }

@@ -183,7 +183,7 @@ pub struct Bodies {
     /// Velocity of the surface of each wall in m/s; empty if all are at rest.
     pub belts: Vec<DVec2>,
 
-    /// How long the lists were when they were filled.
+    /// The lengths of the lists when they were filled.
     #[serde(skip)]
     pub(crate) counts: Option<Counts>,
 }
@@ -207,7 +207,7 @@ impl Bodies {
         (self.entity.get(index) == Some(&entity)).then_some(index)
     }
 
-    /// How many bodies move by forces.
+    /// The number of bodies that move by forces.
     pub(crate) fn dynamic_count(&self) -> usize {
         if self.all_dynamic { self.len() } else { self.dynamic.iter().filter(|dynamic| **dynamic).count() }
     }

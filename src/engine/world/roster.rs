@@ -5,7 +5,7 @@ use bevy_ecs::prelude::*;
 /// Set where entities of bodies, atoms and walls come, go or get another mass.
 #[derive(Resource, Debug, Default)]
 pub(crate) struct Roster {
-    /// Something was spawned, despawned or given another mass: the packed arrays are rebuilt before the next tick.
+    /// Whether a body was spawned, despawned or given another mass: the next tick then rebuilds the packed arrays.
     pub changed: bool,
     /// Bodies have a [`Force`](super::Force) and a [`Torque`](super::Torque), for systems that work on components.
     pub pushed: bool,

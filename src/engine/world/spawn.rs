@@ -38,7 +38,7 @@ pub struct NextKey {
 pub struct NewBody {
     /// Name in the scene.
     pub name: String,
-    /// How it moves.
+    /// Its motion.
     pub motion: Motion,
     /// Its prescribed motion, if it has one. Then it is [`Motion::Kinematic`] from the beginning, and this sets its
     /// initial state.
@@ -113,7 +113,7 @@ fn spawn_one(world: &mut World, pushed: bool, components: impl Bundle) -> Entity
 pub(super) struct Series {
     /// The prefix of their names.
     pub prefix: String,
-    /// How many there are.
+    /// The number of them.
     pub count: usize,
     /// The key of the first; the others follow it. `None`: the next key.
     pub key: Option<u64>,

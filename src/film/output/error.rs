@@ -46,9 +46,9 @@ pub enum OutputError {
     Poses {
         /// The time of the frame in seconds.
         time: f64,
-        /// How many bodies the cast has.
+        /// The number of bodies that the cast has.
         bodies: usize,
-        /// How many poses the frame has.
+        /// The number of poses that the frame has.
         poses: usize,
     },
     /// The film ended without a frame.
@@ -74,7 +74,7 @@ pub enum OutputError {
     Encoder {
         /// The target.
         path: PathBuf,
-        /// How it ended.
+        /// The way in which the program ended.
         ended: String,
         /// Its last message.
         said: String,
@@ -85,7 +85,7 @@ pub enum OutputError {
         path: PathBuf,
         /// Its size so far in bytes.
         bytes: u64,
-        /// How many frames that are.
+        /// The number of frames in the picture.
         frames: u64,
     },
     /// A write followed a failed one.
@@ -105,7 +105,12 @@ impl fmt::Display for OutputError {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             OutputError::UnknownFormat { path, known } => {
-                write!(f, "`{}` has no ending of a known format; known are {}", path.display(), known.join(", "))
+                write!(
+                    f,
+                    "`{}` has no ending of a known format. Known endings are {}",
+                    path.display(),
+                    known.join(", ")
+                )
             }
             OutputError::Size { width, height, longest: 0 } => {
                 write!(f, "a picture of {width} x {height} pixels cannot be made; both sides need at least one pixel")?;

@@ -279,7 +279,7 @@ impl Film for Gif {
     }
 }
 
-/// How long a frame is shown, in hundredths of a second.
+/// The duration of a frame, in hundredths of a second.
 fn delay(frame: u64, frames_per_second: f64) -> u16 {
     (end(frame + 1, frames_per_second) - end(frame, frames_per_second)) as u16
 }

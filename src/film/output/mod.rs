@@ -38,7 +38,7 @@ use jostle_frames::frame::Frame;
 pub struct FilmSettings {
     /// Frames per second of film.
     pub frames_per_second: f64,
-    /// How many threads draw and pack; 0 counts as 1. The bytes do not depend on it.
+    /// The number of threads that draw and pack; 0 counts as 1. The bytes do not depend on it.
     pub threads: usize,
     /// Whether each frame is written as soon as it is pushed, for a reader that shows it at once. Otherwise several are
     /// drawn together. Only raw pictures and videos use it.
@@ -93,7 +93,7 @@ pub struct Draft {
 }
 
 impl Draft {
-    /// How many bytes it has.
+    /// The number of bytes that it has.
     pub fn bytes(&self) -> u64 {
         self.written.bytes
     }
@@ -114,11 +114,11 @@ impl Draft {
 pub struct WrittenFilm {
     /// The file, or the directory of a sequence.
     pub path: PathBuf,
-    /// How many frames.
+    /// The number of frames.
     pub frames: u64,
-    /// How many bytes, all files together.
+    /// The number of bytes of all files together.
     pub bytes: u64,
-    /// How long the film lasts, in seconds; 0 for a still.
+    /// The duration of the film in seconds, or 0 for a still.
     pub seconds: f64,
     /// Pictures of an earlier, longer sequence that still lie in the directory, after the last frame of this one.
     pub left_over: u64,

@@ -76,7 +76,7 @@ impl Palette {
         self.colors.len() as u8
     }
 
-    /// How many bits a place takes: 2 to 8.
+    /// The number of bits that a place takes: 2 to 8.
     pub(super) fn bits(&self) -> u32 {
         (self.colors.len() + 1).next_power_of_two().trailing_zeros().clamp(2, 8)
     }

@@ -82,7 +82,7 @@ impl PartFile {
         (self.unfinished == Unfinished::Kept).then(|| self.shown.clone())
     }
 
-    /// How many bytes were written so far.
+    /// The number of bytes that were written so far.
     pub(super) fn bytes(&self) -> u64 {
         self.bytes
     }

@@ -37,9 +37,9 @@ pub(super) trait Sink: Send + Sync {
 pub(super) struct Closed {
     /// The file that is to get its name; `None` for standard output.
     pub file: Option<PartFile>,
-    /// How many bytes it has.
+    /// The number of bytes that it has.
     pub bytes: u64,
-    /// How long it lasts.
+    /// Its duration.
     pub seconds: f64,
 }
 

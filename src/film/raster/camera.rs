@@ -96,7 +96,7 @@ impl Camera {
         self.size
     }
 
-    /// How many pixels a metre takes.
+    /// The number of pixels that a metre takes.
     pub fn pixels_per_meter(&self) -> f64 {
         self.pixels_per_meter
     }

@@ -54,7 +54,7 @@ pub struct Tint {
     /// The colour to go to.
     #[serde(deserialize_with = "hexadecimal")]
     pub toward: Rgb,
-    /// How far: 0 stays, 1 arrives.
+    /// The share of the way: 0 stays, 1 arrives.
     pub share: f32,
 }
 

@@ -89,7 +89,7 @@ mod tests {
     }
 
     #[test]
-    fn what_is_no_number_hides_no_extreme() {
+    fn nan_hides_no_extreme() {
         let mut decimator = Decimator::default();
         for (index, y) in [f64::NAN, 3.0, -1.0, f64::NAN].into_iter().enumerate() {
             decimator.push(0, Sample { time: index as f64, x: 0.0, y });

@@ -5,7 +5,7 @@
 pub struct Legend {
     /// Bodies first, then what layers draw.
     pub entries: Vec<LegendEntry>,
-    /// How many lines of bodies more there would be: no legend shows more than a few.
+    /// The number of further lines of bodies: no legend shows more than a few.
     pub more: usize,
     /// Short lines on the scene: how many bodies, gravity, tick.
     pub facts: Vec<String>,

@@ -69,7 +69,7 @@ pub enum Content {
     /// Quantities against another one, in the course of time. With a number, older samples than that many seconds are
     /// hidden, and the others fade.
     Phases(Vec<Curve>, Option<f64>),
-    /// How often values occur.
+    /// The frequencies of values.
     Bars(Bars),
 }
 

@@ -86,12 +86,12 @@ fn comments_stay_where_they_are() {
 #[test]
 fn sections_stand_in_the_order_of_the_manual() {
     becomes(
-        "Scene(\n    // What acts.\n    gravity: (0, -1), // down\n    storm: 1,\n    clock: (duration: 1),\n    title: \"T\",\n    format: 1\n)",
+        "Scene(\n    // Forces act.\n    gravity: (0, -1), // down\n    storm: 1,\n    clock: (duration: 1),\n    title: \"T\",\n    format: 1\n)",
         "Scene(
     format: 1,
     title: \"T\",
     clock: (duration: 1),
-    // What acts.
+    // Forces act.
     gravity: (0, -1), // down
     storm: 1,
 )

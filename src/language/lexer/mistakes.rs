@@ -79,7 +79,7 @@ impl Lexer<'_> {
         let start = self.text[..end].char_indices().next_back().map_or(end, |(index, _)| index);
         let fault = self.fault("a comma is missing after this value", start..end, "`,` expected after this");
         let help = match before_form {
-            Some(Form::Text) => "separate fields and list items with `,`; or is a closing `\"` missing before?",
+            Some(Form::Text) => "separate fields and list items with `,`. Or is a closing `\"` missing before?",
             _ => "separate fields and list items with `,`",
         };
         Err(self.about_last(fault).help(help))

@@ -371,7 +371,7 @@ impl Lexer<'_> {
     }
 
     fn duplicates(&mut self, id: Id) {
-        // Few fields are compared with one another; a table is worth its making for many.
+        // Few fields need only comparisons with one another. For many, a table is worth its cost.
         const FEW: usize = 16;
         let children = self.tree.children(id);
         if self.tree.node(id).form == Form::List || children.len() < 2 {

@@ -62,7 +62,7 @@ pub struct FileRequest {
     pub most: u64,
     /// The expected kind of file, for the message about a folder: `a PNG picture`.
     pub noun: &'static str,
-    /// How to make a file smaller.
+    /// A way to make a file smaller.
     pub smaller: &'static str,
 }
 

@@ -358,7 +358,7 @@ impl Expander {
                 Ok(Value::Node(there, value)) => {
                     self.depth += 1;
                     if self.depth > DEEPEST {
-                        let error = self.wrong(context, span, "values stand in each other without end");
+                        let error = self.wrong(context, span, "parameters contain each other without end");
                         return Err(Box::new(error.with_help("a parameter must not hold itself")));
                     }
                     let there = Context { step: context.step, ..there };
@@ -402,8 +402,9 @@ impl Expander {
         let is_pattern = text.contains('*') && !text.contains(char::is_whitespace);
         let Some(template) = &context.place.template else { return };
         if is_pattern && !context.place.has(text) && self.foreign.insert((context.file.number, start)) {
-            self.notes
-                .push(format!("the template `{template}` makes nothing called \"{text}\": things around it are meant"));
+            self.notes.push(format!(
+                "the template `{template}` makes no \"{text}\". The name means things around the template"
+            ));
         }
     }
 }

@@ -490,7 +490,7 @@ mod tests {
             assert_eq!(found.range, place, "{text}");
             assert!(found.help.as_ref().is_some_and(|told| told.contains(help)), "{text}: {found:?}");
         }
-        let huge = value("1e400").expect_err("beyond all numbers");
+        let huge = value("1e400").expect_err("1e400 is infinite");
         assert!(huge.message.contains("too large"), "{huge:?}");
     }
 

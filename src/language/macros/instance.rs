@@ -120,7 +120,7 @@ impl Expander {
 
     fn unused(&self, patch: &Override, template: &str, names: &BTreeSet<String>) -> crate::SceneError {
         let key = patch.context.file.tree.key(patch.value);
-        let message = format!("the template `{template}` makes nothing named \"{}\"", patch.target);
+        let message = format!("the template `{template}` makes no \"{}\"", patch.target);
         let mut error = self.wrong(&patch.context, key, message);
         error.label = "unknown name".into();
         let help = suggest::among(&patch.target, names.iter().map(String::as_str), "names in the template", '"');

@@ -45,7 +45,7 @@ pub(super) const SECTIONS: [&str; 4] = ["include", "params", "templates", "insta
 /// At most this many things from repetitions and instances. Each is a text that is read; `fill` and `packings` make
 /// more.
 const MOST_MADE: u64 = 200_000;
-/// How much work the making may be, about in bytes that are copied: some seconds, and some 100 MiB.
+/// The greatest work of making, about in bytes that it copies: some seconds, and some 100 MiB.
 const MOST_WORK: usize = 8 * LARGEST_SCENE;
 /// Templates in templates, files in files: this deep.
 const DEEPEST: u32 = 32;
@@ -98,7 +98,7 @@ pub(super) struct Expanded {
     files: Vec<Rc<File>>,
     steps: Vec<Step>,
     pieces: Vec<expansion::Piece>,
-    /// Why a text is no expression, by file and place.
+    /// The reason for which a text is no expression, by file and place.
     reasons: BTreeMap<(usize, usize), SceneError>,
 }
 

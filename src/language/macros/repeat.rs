@@ -33,7 +33,7 @@ impl Expander {
             if tree.node(item).form == Form::Round && name == "Repeat" {
                 self.repeat(context, item, act)?;
             } else if name.eq_ignore_ascii_case("repeat") && self.field(context, item, "make").is_some() {
-                let error = self.wrong(context, tree.head(item), format!("nothing is called `{name}` here"));
+                let error = self.wrong(context, tree.head(item), format!("the name `{name}` means nothing here"));
                 return Err(Box::new(error.with_help(format!("did you mean `Repeat`? For example: {EXAMPLE}"))));
             } else {
                 act(self, context, item)?;

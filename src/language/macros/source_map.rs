@@ -117,7 +117,7 @@ impl Expanded {
             if error.message.ends_with(&format!("found the number {value}")) && value.parse::<f64>().is_ok() {
                 let help = error.help.take().map_or_else(String::new, |help| format!("; {help}"));
                 error.help = Some(format!(
-                    "`{name}` is worked out as a number here; to speak of something else named so, rename one of the two{help}"
+                    "`{name}` is the name of a number here. To name another thing so, rename one of the two{help}"
                 ));
             }
         } else if let Some(reason) = self.reasons.get(&(number, there.start))

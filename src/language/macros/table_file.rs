@@ -139,7 +139,7 @@ struct Fault {
 /// How the lines of a table are read.
 struct Layout {
     separator: char,
-    /// How many columns there are, and which of them hold the time and the value.
+    /// The number of columns, and which of them hold the time and the value.
     count: usize,
     indices: [usize; 2],
 }
@@ -200,14 +200,14 @@ fn points_of(text: &str, columns: Option<&Columns>, back: &str) -> Result<Vec<(f
             return Err(wrong(format!("holds no two numbers: `{line}`")));
         };
         if !(time.is_finite() && value.is_finite()) {
-            return Err(wrong(format!("holds a number that is not finite: `{line}`")));
+            return Err(wrong(format!("holds a number that is NaN or infinite: `{line}`")));
         }
         if points.last().is_some_and(|before| time <= before.0) {
             return Err(wrong(format!("{back}: `{line}`")));
         }
         points.push((time, value));
     }
-    let none = || Fault { line: 1, why: "holds no point, nor do those behind it".into(), help: None };
+    let none = || Fault { line: 1, why: "holds no point, and all lines after it hold none".into(), help: None };
     if points.is_empty() { Err(none()) } else { Ok(points) }
 }
 

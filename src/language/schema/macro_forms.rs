@@ -28,8 +28,8 @@ bodies: [
 pub(super) struct Made {
     /// Other files whose lists and maps come into this scene. Default: none.
     include: Option<Vec<Include>>,
-    /// Values with names, for expressions in quotes; `--set n=9` gives one another value. A value may depend on others,
-    /// in any order, and may have any form that a scene allows. Default: none.
+    /// Values with names, for expressions in quotes. `--set n=9` gives one of them another value. A value may depend on
+    /// others, in any order, and may have any form that a scene allows. Default: none.
     #[schemars(extend("x-value" = "`{ \"name\": value }`"))]
     params: Option<BTreeMap<String, Value>>,
     /// Parts of scenes that instances make, by name. Default: none.
@@ -44,9 +44,9 @@ pub(super) struct Made {
 struct Include {
     /// The file, from the folder of the file that includes it.
     file: String,
-    /// Its names begin with this and `/`. Default: they stay as they are.
+    /// Its names begin with this and `/`. Default: none.
     prefix: Option<String>,
-    /// Other values for its `params`. Default: its own.
+    /// Other values for its `params`. Default: the values in the file.
     #[schemars(extend("x-value" = "`(name: value)`"))]
     with: Option<BTreeMap<String, Value>>,
 }
@@ -55,7 +55,7 @@ struct Include {
 #[derive(JsonSchema)]
 #[expect(dead_code, reason = "described, never made")]
 pub(super) struct Template {
-    /// The arguments that every instance has to give. Default: none.
+    /// The arguments that each instance must give. Default: none.
     args: Option<Vec<String>>,
     /// Arguments with the value they have if an instance gives none, and values made from others. Default: none.
     #[schemars(extend("x-value" = "`{ \"name\": value }`"))]
@@ -79,25 +79,25 @@ struct Instance {
     set: Option<BTreeMap<String, Value>>,
 }
 
-/// In any list, in place of an item: one item several times. In `make` the count has a name, `i` from 0 on; with two
-/// counts, `j` are the rows.
+/// In any list, in place of an item: one item several times. In `make` the count has a name, `i` from 0 on. With two
+/// counts, `j` counts rows.
 #[derive(JsonSchema)]
 #[schemars(deny_unknown_fields)]
 #[expect(dead_code, reason = "described, never made")]
 pub(super) struct Repeat {
-    /// How often; for a grid columns and rows.
+    /// The number of items. For a grid it is columns and rows.
     #[schemars(schema_with = "count")]
     count: (),
     /// The names of the indices in expressions. Default: `i`, and `j` for rows.
     #[schemars(default, schema_with = "index")]
     r#as: Option<()>,
-    /// Along a line, both ends taken; gives `x` and `y`. Default: no places are given.
+    /// Places along a line, with both ends. They give `x` and `y`. Default: none.
     line: Option<Line>,
-    /// In columns and rows; gives `x` and `y`. Default: no places are given.
+    /// Places in columns and rows. They give `x` and `y`. Default: none.
     grid: Option<Grid>,
-    /// Around a circle; gives `x`, `y` and `angle`. Default: no places are given.
+    /// Places around a circle. They give `x`, `y` and `angle`. Default: none.
     circle: Option<Circle>,
-    /// The item that is made, or a list of items, other `Repeat` among them.
+    /// The item to repeat, or a list of items. Items may be `Repeat` too.
     make: Value,
 }
 
@@ -119,7 +119,7 @@ struct Line {
 struct Grid {
     /// The place of the first.
     from: LengthPair,
-    /// From one column to the next, and from one row to the next.
+    /// The steps from one column to the next, and from one row to the next.
     step: LengthPair,
 }
 

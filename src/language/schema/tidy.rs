@@ -61,7 +61,7 @@ fn drop_null(schema: &mut Value) {
             }
         }
     }
-    // How many bits a number has is no matter of scenes.
+    // The bits of a number do not matter in scenes.
     if map.get("type").is_some_and(|kind| kind == "number" || kind == "integer") {
         map.shift_remove("format");
     }

@@ -55,7 +55,7 @@ pub trait Dimension: Send + Sync + 'static {
     const POWERS: Powers;
     /// The SI unit of a bare number, for the manual. Default: the product of base units that the powers give.
     const UNIT: &'static str = "";
-    /// How it may be written, for messages: a bare number and a text with a unit.
+    /// Its two forms, for messages: a bare number and a text with a unit.
     const EXAMPLE: &'static str;
 }
 

@@ -34,7 +34,7 @@ const LEAST: u64 = 50;
 pub struct BenchRequest {
     /// Ticks of a round. `None`: a fifth of a second, but at least 50 ticks, within the duration of the scene.
     pub ticks: Option<u64>,
-    /// How many rounds are timed.
+    /// The number of rounds that are timed.
     pub rounds: u32,
     /// Whether rounds are to be short.
     pub quick: bool,
@@ -56,7 +56,7 @@ impl BenchRequest {
         (self.from / simulation.clock().dt).round() as u64
     }
 
-    /// How many steps of a progress bar one scene takes.
+    /// The number of steps of a progress bar that one scene takes.
     pub fn steps(&self) -> u64 {
         u64::from(self.rounds) + 3
     }

@@ -74,7 +74,7 @@ pub struct Judged {
 }
 
 impl Judged {
-    /// How many readings came out so.
+    /// The number of readings with this outcome.
     pub fn count(&self, verdict: Judgement) -> usize {
         self.readings.iter().flatten().filter(|reading| reading.verdict() == verdict).count()
     }
@@ -93,7 +93,7 @@ enum Done {
 }
 
 impl DocumentRequest {
-    /// How much of a hard case is run; nothing: it is left out.
+    /// The extent to which a hard case runs, or `None` if it is left out.
     fn extent(&self, case: &Case) -> Option<Extent> {
         if self.quick { case.cheap.then_some(Extent::Short) } else { Some(Extent::Full) }
     }
@@ -239,7 +239,7 @@ impl Sheet {
     }
 }
 
-/// Why a setting has no error.
+/// The reason for which a setting has no error.
 fn failure(setting: &Setting) -> Option<String> {
     match &setting.outcome {
         SettingOutcome::Measured(_) => None,

@@ -55,16 +55,12 @@ impl From<&str> for Cell {
     }
 }
 
-const HOW: &str = "Errors are the greatest at the samples of a problem, against its exact answer and in its unit; where it matters where in a \
-     tick an event falls, the greatest of three such phases. Times are the least of three to nine runs that do nothing else, on one core. \
-     `located`: events are found inside ticks; `Auto`: what the engine chooses. Runs of more than a million ticks are left out, with \
-     `--quick` of 30 000; finer ticks are left out too where the error is down to rounding or to what the answer leaves open, or where others have it for a 64th of the \
-     evaluations.";
-const HARD: &str = "Scenes that break engines, with what is measured and the threshold that physics or numerics sets. *Told*: the value is beyond \
-     its threshold, in a run that the engine itself ended with a message or warned of; it is a failure that is not silent. *FAILED*: beyond it, and \
-     nothing says so.";
-const GRADES: &str = "The best grade of each method at any tick of the ladder: bronze an error of 1e-2, silver 1e-4, gold 1e-8, reference: what \
-     rounding may do at the tick, or what the answer itself leaves open. A dash: none, or it does not run.";
+const HOW: &str = "Errors are the greatest at the samples of a problem, against its exact answer and in its unit. If the \
+place of an event in a tick matters, they are the greatest of three such places. Times are the least of three to nine runs that do nothing else, on one core. `located`: the engine finds events inside ticks. `Auto`: the choice of the engine. No run has more than a million ticks, or 30 000 with `--quick`. Finer ticks are absent if the error is down to rounding, or to the uncertainty of the answer. They are also absent if other settings have this error for a 64th of the evaluations.";
+const HARD: &str = "Scenes that break engines, with the measured value and the threshold that physics or numerics sets. \
+*Told*: the value is beyond its threshold, but the engine ended the run with a message, or warned of it. *FAILED*: the value is beyond it, and the engine gives no message.";
+const GRADES: &str = "The best grade of each method at any tick of the ladder. Bronze is an error of 1e-2, silver 1e-4, gold \
+1e-8. *Reference* is the effect of rounding at the tick, or the uncertainty of the answer itself. A dash: none of these, or the method does not run.";
 
 /// The page. `picture` draws the diagram of a sheet.
 pub fn page(
@@ -78,7 +74,7 @@ pub fn page(
     let made = made.lines.iter().map(|(name, value)| vec![Cell::from(*name), value.clone().into()]).collect();
     blocks.push(Block::Table(vec!["made with".to_owned(), String::new()], made));
     if !sheets.is_empty() {
-        blocks.push(Block::Heading(2, "What reaches an error at the least cost".to_owned()));
+        blocks.push(Block::Heading(2, "The cheapest setting for each error".to_owned()));
         blocks.push(Block::Text(
             "Seconds of computing for each second of physics, and how: the cheapest of all methods and ticks."
                 .to_owned(),
@@ -139,12 +135,10 @@ fn estimates(sheets: &[Sheet], blocks: &mut Vec<Block>) {
     let outside = |checked: &&Checked| !(1.0 / FACTOR..=FACTOR).contains(&checked.ratio());
     let ratios = || all.iter().map(|checked| checked.ratio());
     let (least, most) = (ratios().fold(f64::INFINITY, f64::min), ratios().fold(0.0, f64::max));
-    blocks.push(Block::Heading(2, "What runs say of their own error".to_owned()));
+    blocks.push(Block::Heading(2, "Estimates of runs against the truth".to_owned()));
     blocks.push(Block::Text(format!(
-        "Each run estimates how far its places are from the exact solution (`error` on its card). Here the estimate stands beside the truth, the \
-         distance from a reference run, for three methods at the three longest ticks at which errors fall with the tick: {} of {} are within \
-         a factor of {FACTOR}; the estimate is {least:.2} to {most:.2} times the truth. Of runs that were made again only in part (`until t = ..` on \
-         their card) both are those of that part.",
+        "Each run estimates the distance of its places from the exact solution (`error` on its card). The truth beside it is \
+         the distance from a reference run. The table has three methods at the three longest ticks at which errors fall with the tick. Of all estimates, {} of {} are within a factor of {FACTOR}. They are {least:.2} to {most:.2} times the truth. If finer runs cover only a part of a run (`until t = ..` on its card), both belong to that part.",
         all.len() - all.iter().copied().filter(outside).count(),
         all.len(),
     )));
@@ -222,7 +216,7 @@ fn readings<'a>(cases: impl Iterator<Item = &'a Judged>, wanted: impl Fn(Judgeme
 fn problem(sheet: &Sheet, peers: &Peers, picture: Option<PagePicture>, blocks: &mut Vec<Block>) {
     let problem = &sheet.problem;
     blocks.push(Block::Heading(2, problem.name.to_owned()));
-    let mut text = format!("{}. Source: {}.", capital(problem.law), problem.source);
+    let mut text = format!("{}. Source: {}.", crate::capital(problem.law), problem.source);
     if let Some(hash) = &sheet.hash {
         text.push_str(&format!(" State hash of `Auto` at a tick of {} s: `{hash}`.", rounded(problem.tick)));
     }
@@ -259,9 +253,4 @@ fn problem(sheet: &Sheet, peers: &Peers, picture: Option<PagePicture>, blocks: &
 /// Three digits of a number.
 fn three(value: f64) -> f64 {
     format!("{value:.2e}").parse().unwrap_or(value)
-}
-
-fn capital(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }

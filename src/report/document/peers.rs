@@ -78,10 +78,10 @@ impl Peers {
     /// The caption below a diagram with their curves.
     pub fn caption(problem: &str) -> &'static str {
         if SAME.contains(&problem) {
-            "Other engines: the same scene and norm, each with the settings of its own that nothing of it beats; CPU time of one thread."
+            "Other engines: the same scene and norm. Each engine has its best settings. Times are CPU times of one thread."
         } else {
-            "Other engines: the same question put to rigid bodies, against the answer for rigid bodies; Jostle's contacts are springs, and its \
-             errors those against the answer for springs. Each with the settings of its own that nothing of it beats; CPU time of one thread."
+            "Other engines: the same question for rigid bodies, against the answer for rigid bodies. Jostle's contacts are \
+             springs, so its errors are against the answer for springs. Each engine has its best settings. Times are CPU times of one thread."
         }
     }
 

@@ -22,7 +22,7 @@ impl Seen {
 #[derive(Clone, Debug)]
 pub(super) struct Growth {
     seen: Vec<(f64, f64, f64)>,
-    /// How far bodies go, in m.
+    /// The distance that bodies go, in m.
     motion: f64,
     /// Greatest difference of places until the horizon, in m.
     pub distance: f64,

@@ -211,7 +211,7 @@ fn discretisation(
     if seen < FEWEST_MOMENTS.min(ticks as usize) {
         let part = SHARE * 100.0;
         found.notes.push(format!(
-            "the error is not estimated: {part:.0} % of the work tell too little; --estimate takes more"
+            "the error is not estimated: {part:.0} % of the work tell too little. --estimate takes more"
         ));
         return Ok(());
     }
@@ -226,7 +226,7 @@ fn discretisation(
     for (number, &finer) in twins.iter().enumerate() {
         let Some((twin, second)) = twins::run(simulation, (finer, until), patience(finer), scene)? else {
             found.began = None;
-            found.notes.push("the error is not estimated: that takes long; --estimate takes the time".to_owned());
+            found.notes.push("the error is not estimated: that takes long. --estimate takes the time".to_owned());
             return Ok(());
         };
         if let Some(failure) = &twin.failure {
@@ -270,11 +270,11 @@ fn tell_part(simulation: &Simulation, second: &Simulation, until: u64, found: &m
     let last = moments(simulation).into_iter().rfind(|tick| *tick <= until).unwrap_or_default();
     let known = simulation.clock().time_of(last);
     let (told, all) = (number(known), number(simulation.clock().time()));
-    let untouched = if touches(simulation) && !touches(second) { "; nothing touches in them" } else { "" };
+    let untouched = if touches(simulation) && !touches(second) { ", in which no bodies touch" } else { "" };
     found.known_until = Some(known);
     found.notes.push(format!(
-        "the error is that of the first {told} s of {all} s, which were run again with finer steps{untouched}. --estimate runs it \
-         all again"
+        "the error is that of the first {told} s of {all} s. Finer runs cover only these{untouched}. With --estimate they \
+         cover all"
     ));
 }
 

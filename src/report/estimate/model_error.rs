@@ -14,7 +14,7 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::ErrorEstimate;
 use jostle_engine::tick::State;
 
-/// How many times as stiff.
+/// The factor of the stiffness.
 const STIFFER: f64 = 4.0;
 /// Its error over the difference: `1/(1 - 1/sqrt(STIFFER))`.
 const LEFT: f64 = 2.0;
@@ -45,7 +45,7 @@ pub(super) fn estimate(
     let growth = Growth::of(Seen::between(run, &other), run.sizes().0);
     if let Some(horizon) = growth.horizon {
         found.notes.push(format!(
-            "contacts four times as stiff lead elsewhere after t = {horizon:.3} s: the error of the model is that until then"
+            "contacts four times as stiff lead elsewhere after t = {horizon:.3} s. The error of the model holds until then"
         ));
     }
     (estimate.position.model, estimate.velocity.model) = (Some(LEFT * growth.distance), Some(LEFT * growth.speed));

@@ -39,7 +39,7 @@ impl Finer {
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
 
-    /// How much shorter its steps are.
+    /// The factor by which its steps are shorter.
     pub fn steps(self) -> f64 {
         f64::from(self.ticks * self.parts) / f64::from(self.of)
     }

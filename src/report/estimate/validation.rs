@@ -36,7 +36,7 @@ pub struct Checked {
     pub tick: f64,
     /// The estimate of the run.
     pub estimated: f64,
-    /// How far it is from the reference run.
+    /// Its distance from the reference run.
     pub truth: f64,
 }
 

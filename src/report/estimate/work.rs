@@ -25,7 +25,7 @@ const READING: f64 = 8.0;
 
 /// A finer run may take so many times the expected evaluations.
 const EXCESS: f64 = 4.0;
-/// A finer run may take so many seconds, and this share of the time of the first run: for models whose work is not counted.
+/// A finer run may take so many seconds, and this share of the time of the first run. They bound models that count no work.
 const SECONDS: f64 = 5.0;
 const SHARE_OF_TIME: f64 = 0.5;
 /// Parts of a run between which it is seen whether it takes too long.

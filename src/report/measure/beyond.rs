@@ -47,9 +47,9 @@ impl MeanDeviation {
 pub(super) struct Beyond {
     from: f64,
     means: Means,
-    /// How far bodies go, in m.
+    /// The distance that bodies go, in m.
     motion: f64,
-    /// How far reference runs are from each other.
+    /// The distance of reference runs from each other.
     pub scatter: MeanDeviation,
 }
 
@@ -74,7 +74,7 @@ impl Beyond {
         Some(Self { scatter, ..beyond })
     }
 
-    /// How far a run is from them.
+    /// The distance of a run from them.
     pub fn compare(&self, run: &Trajectory) -> Option<MeanDeviation> {
         let means = means(run, self.from)?;
         let (speed, motion) = (self.means.speed, self.motion);

@@ -24,9 +24,9 @@ use jostle_engine::simulation::{Plan, Simulation};
 use jostle_film::raster::Diagram;
 use scene::{Compared, Scene};
 
-/// How errors are measured, in words.
-pub const NORM: &str = "the greater of two shares: how far any point of a body is from the reference, at the worst of all moments, \
-     over how far the body goes; and how much its velocity differs, as a root mean square over the moments, over how fast it is";
+/// The measure of errors, in words.
+pub const NORM: &str = "the greater of two shares. One is the greatest distance of any point of a body from the reference, \
+over how far the body goes. The other is the root mean square over time of the difference of its velocity, over how fast it is";
 
 /// The order of a measurement.
 #[derive(Clone, Debug)]

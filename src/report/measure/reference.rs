@@ -35,7 +35,7 @@ const MOST_DOUBLINGS: u32 = 12;
 /// The properties of the reference run.
 #[derive(Clone, Debug)]
 pub struct Reference {
-    /// How it was made.
+    /// The way in which it was made.
     pub words: String,
     /// Its own error is no larger, in the norm of the settings.
     pub floor: f64,
@@ -43,7 +43,7 @@ pub struct Reference {
     pub horizon: Option<f64>,
     /// Until when settings are compared with it, in s.
     pub until: f64,
-    /// Why that is not the whole run.
+    /// The reason for which that is not the whole run.
     pub why_until: Option<String>,
     /// The difference of means over the rest of the run between reference runs, if there is a rest.
     pub scatter: Option<MeanDeviation>,
@@ -244,7 +244,8 @@ fn by_ticks(load: Load, scene: &Scene, budget: &Budget, why: &str) -> Result<Tru
         why_until: None,
         scatter: None,
         warning: Some(format!(
-            "{why}: the reference is a run of velocity Verlet with fine ticks, and the floor is its difference from a run with twice the tick"
+            "{why}. The reference is a run of velocity Verlet with fine ticks. Its error is its difference from a run with \
+             twice the tick"
         )),
     };
     compared((&coarse, None), fine, about, scene.duration, &|_| 1.0)
@@ -279,7 +280,7 @@ fn compared(
     {
         until = before;
         about.why_until = Some(format!(
-            "two reference runs are more than {} % of the motion apart at t = {} s: the motion is too sensitive to be told there",
+            "two reference runs are more than {} % of the motion apart at t = {} s: from then on they tell nothing",
             number(100.0 * PARTED),
             number(parted)
         ));

@@ -22,7 +22,7 @@ const USUAL_LIMIT: f64 = 2.0;
 const FEWEST_TICKS: f64 = 5.0;
 /// Parts of a hundred moments, each about twice as fine as the one before.
 const COARSE: [u64; 6] = [1, 2, 5, 10, 20, 50];
-/// How often ticks are halved at the most.
+/// The number of times that ticks are halved at the most.
 const HALVINGS: u32 = 40;
 /// Bounds of the exponent: a run has the compared moments times two to this power.
 const FEWEST_MOMENTS: u32 = 4;
@@ -101,7 +101,7 @@ impl Scene {
         count.next_multiple_of(common.max(1))
     }
 
-    /// How many ticks of a run of `count`, and how many moments, lie between two that both have.
+    /// The numbers of ticks of a run of `count`, and of moments, between two that both have.
     fn strides(&self, count: u64) -> (u64, u64) {
         let (mut common, mut rest) = (count, self.seen);
         while rest > 0 {

@@ -69,7 +69,7 @@ pub fn after(count: usize, incoming: usize) -> Vec<f64> {
     Truth::read(TRUTH).numbers(&format!("soft final velocities / v, N={count}, {incoming} incoming"))
 }
 
-/// How long the discs touch, in s.
+/// The time for which the discs touch, in s.
 pub fn interaction_time(count: usize, incoming: usize) -> f64 {
     Truth::read(TRUTH).number(&format!("soft total interaction time sqrt(k/m), N={count}, {incoming} incoming")) / OMEGA
 }

@@ -57,7 +57,7 @@ pub fn restitution(inelasticity: f64) -> f64 {
     ((1.0 - inelasticity) / (1.0 + inelasticity)).sqrt()
 }
 
-/// How long the contact lasts, in s.
+/// The duration of the contact, in s.
 pub fn contact_time(inelasticity: f64) -> f64 {
     FRAC_PI_2 / OMEGA * (1.0 / (1.0 + inelasticity).sqrt() + 1.0 / (1.0 - inelasticity).sqrt())
 }

@@ -189,7 +189,7 @@ pub struct ProblemSetting<'a> {
     pub tick: f64,
     /// Seconds by which events are moved against the ticks. Problems that do not depend on the phase ignore it.
     pub shift: f64,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
 }
 
@@ -214,7 +214,7 @@ impl ProblemSetting<'_> {
 pub struct Constant {
     /// Name of the method.
     pub method: &'static str,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
     /// The order that the method shows, which the class may limit.
     pub order: u32,
@@ -243,7 +243,7 @@ pub struct Problem {
     pub law: &'static str,
     /// The source of the law.
     pub source: &'static str,
-    /// How smooth the forces are.
+    /// The smoothness of the forces.
     pub class: Class,
     /// A tick in seconds from which on the error falls as expected. Samples are whole multiples of it, unless the class
     /// depends on the phase. Then any tick will do, and the state nearest to the sample is compared.

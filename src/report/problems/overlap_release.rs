@@ -56,7 +56,7 @@ pub fn rate() -> f64 {
     (STIFFNESS * (1.0 - INELASTICITY) / reduced).sqrt()
 }
 
-/// How far the centres are apart in m, and how fast they part in m/s.
+/// The distance of the centres in m, and their speed apart in m/s.
 pub fn distance(time: f64) -> (f64, f64) {
     let leaving = std::f64::consts::FRAC_PI_2 / rate();
     let speed = rate() * OVERLAP;

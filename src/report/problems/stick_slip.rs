@@ -52,7 +52,7 @@ const BELT: f64 = 0.2;
 const FLOOR: f64 = 1e5;
 const RADIUS: f64 = 0.1;
 
-/// How long it slips in a round and how long it is carried, in s; the greatest place in m.
+/// The times in s of slipping and of sticking in a round, and the greatest place in m.
 pub fn round(friction: f64) -> (f64, f64, f64) {
     let (rate, away) = (STIFFNESS.sqrt(), (friction - DYNAMIC) * GRAVITY / STIFFNESS);
     let phase = libm::atan(away * rate / BELT);

@@ -20,8 +20,8 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let share = begin.elastic / card.energy_scale.max(begin.elastic);
     let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
     let what = format!(
-        "`{a}` and `{b}` overlap at the start by {} of the smaller radius, and contacts hold {} J there that nothing in the scene \
-         put in, {} of the energy that changed form",
+        "`{a}` and `{b}` overlap at the start by {} of the smaller radius. Contacts hold {} J from the start on, {} of the energy \
+         that changed form",
         percent(overlap.share),
         number(begin.elastic),
         percent(share)
@@ -37,7 +37,7 @@ pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let drag = card.energy.drag + card.energy.accounts.values().sum::<f64>();
     let taken = drag / card.energy_scale;
     let mad = drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
-    let what = "drag takes more than the whole velocity of a body in a tick, and turns it round".to_owned();
+    let what = "drag takes more than the whole velocity of a body in a tick, and reverses it".to_owned();
     // The reversed velocities set how far bodies travelled, so the travel does not tell which tick would do.
     let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));
     mad.then(|| Cause { trust: Trust::Not, what, remedy: Some(finer.or_finer()) })

@@ -8,11 +8,11 @@ use jostle_language::numbers::{number, percent};
 pub(crate) const UNACCOUNTED: f64 = 0.05;
 
 /// Energy or momentum is NaN or infinite.
-pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
+pub(super) fn not_finite(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let finite =
         [card.energy.residual, card.momentum_residual[0], card.momentum_residual[1]].iter().all(|x| x.is_finite());
-    let what = "numbers are infinite or NaN".to_owned();
+    let what = "energy or momentum is infinite or NaN".to_owned();
     (!finite).then(|| Cause { trust: Trust::Not, what, remedy: evidence.finer() })
 }
 
@@ -20,20 +20,20 @@ pub(super) fn numbers_that_are_none(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let error = card.energy_error();
-    // If energies are so large that their ratio is NaN, `numbers_that_are_none` reports them.
+    // If energies are so large that their ratio is NaN, `not_finite` reports them.
     if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }
-    let share = format!("{:.1} % of the energy is unaccounted for", error * 100.0);
+    let share = format!("the accounts miss {:.1} % of the energy", error * 100.0);
     if let Some(Cause { trust, what, remedy }) = near::attraction(evidence) {
-        return Some(Cause { trust, what: format!("{share}: {what}"), remedy });
+        return Some(Cause { trust, what: format!("{share}. {}", crate::capital(&what)), remedy });
     }
     let why = [ticks::brief_contact, ticks::far_travel_unseen].into_iter().find_map(|cause| cause(evidence));
     let why = why.map(|cause| cause.what).or_else(|| super::trajectory_error::began(evidence)).map_or_else(
-        || ": the tick is too long for the forces, or a plugin does not book its work".to_owned(),
-        |why| format!(": {why}"),
+        || "The tick is too long for the forces, or a plugin does not book its work".to_owned(),
+        |why| crate::capital(&why),
     );
-    let what = format!("{share}{why}");
+    let what = format!("{share}. {why}");
     let tolerance = evidence.or_tolerance();
     Some(Cause { trust: Trust::Not, what, remedy: card.remedy().map(|remedy| format!("`{remedy}`{tolerance}")) })
 }
@@ -53,7 +53,7 @@ pub(super) fn given_back(evidence: &Evidence) -> Option<Cause> {
     let share = given / card.energy_scale;
     let trust = if share > GIVEN { Trust::Not } else { Trust::ButNot(VerdictPart::Energy) };
     let what = format!(
-        "friction and contacts have given {} J, though they can only take: contacts that should rest sink in, and are wedged",
+        "friction and contacts have given {} J, though they can only take energy. Wedged contacts that should rest sink in",
         number(given)
     );
     (share > ROUNDED).then(|| Cause { trust, what, remedy: evidence.finer() })
@@ -64,20 +64,20 @@ pub(super) fn of_unknown_cause(evidence: &Evidence) -> String {
     let card = evidence.card;
     let remedy = match card.remedy() {
         // The failure itself made the contacts from which the card derives its tick, so that tick is not advised.
-        Some(Remedy::Tick(_)) => format!(", or try `{}`", Remedy::Tick(card.tick / 4.0)),
-        Some(remedy) => format!(", or try `{remedy}`"),
+        Some(Remedy::Tick(_)) => format!(". Or try `{}`", Remedy::Tick(card.tick / 4.0)),
+        Some(remedy) => format!(". Or try `{remedy}`"),
         None => String::new(),
     };
     format!(
-        "numbers grew beyond all bounds: look for enormous speeds, forces, stiffnesses or sizes, for masses near zero, for drag that stops a body \
-         within a tick, for a plugin that does not book its work{remedy}"
+        "numbers grew beyond all bounds. Look for enormous speeds, forces, stiffnesses or sizes, and for masses near zero. Look for \
+         drag that stops a body within a tick, and for a plugin that does not book its work{remedy}"
     )
 }
 
-/// Energy that is accounted for, in words.
-pub(super) fn accounted(evidence: &Evidence) -> String {
+/// The sentence on the energy residual.
+pub(super) fn residual(evidence: &Evidence) -> String {
     match evidence.card.energy_error() {
-        0.0 => "all energy is accounted for".to_owned(),
-        error => format!("energy is accounted for to {}", percent(error)),
+        0.0 => "The energy residual is 0.".to_owned(),
+        error => format!("The energy residual is {} of the energy that changed form.", percent(error)),
     }
 }

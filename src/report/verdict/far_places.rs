@@ -20,7 +20,7 @@ pub(super) fn rounding(evidence: &Evidence) -> Option<Cause> {
     let share = digit / size;
     let body = evidence.name(bodies.entity[body?]);
     let what = format!(
-        "`{body}` is {} m from the origin, where places have steps of {} m, {} of the {}",
+        "`{body}` is {} m from the origin, where places have steps of {} m. Such a step is {} of the {}",
         number(far),
         rough(digit),
         percent(share),

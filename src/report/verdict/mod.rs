@@ -60,7 +60,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     ahead::drag,
     near::attraction,
     far_places::rounding,
-    energy::numbers_that_are_none,
+    energy::not_finite,
     ticks::unseen_swing,
     energy::unaccounted,
     energy::given_back,
@@ -75,11 +75,6 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
 ];
 
 impl Evidence<'_> {
-    /// The remedy that the card advises, between words that go with it.
-    pub fn advice(&self, before: &str, after: &str) -> String {
-        self.card.remedy().map_or_else(String::new, |remedy| format!("{before}{remedy}{after}"))
-    }
-
     /// The remedy that the card advises, or a finer one.
     pub fn finer(&self) -> Option<String> {
         self.card.remedy().map(|remedy| remedy.or_finer())
@@ -94,7 +89,7 @@ impl Evidence<'_> {
     /// A warning of missing energy.
     pub fn missing_energy(&self) -> Option<String> {
         let Cause { what, remedy, .. } = energy::unaccounted(self)?;
-        Some(remedy.map_or_else(|| what.clone(), |remedy| format!("{what}; use {remedy}")))
+        Some(remedy.map_or_else(|| what.clone(), |remedy| format!("{what}. Use {remedy}")))
     }
 
     /// The likely cause of a failed run, and a remedy to try.
@@ -103,33 +98,33 @@ impl Evidence<'_> {
             return near::of_endless_steps(self);
         }
         if matches!(failure.wrong, FailureKind::Pairs(_)) {
-            let ways =
-                "use fewer bodies, keep them from falling into one place, take a finer tick if they go far in one";
-            return format!("{ways}, or give those that are not to touch `collides: false`");
+            return "use fewer bodies, keep them apart, or take a finer tick if they go far in one. Bodies that are not to touch \
+                    take `collides: false`"
+                .to_owned();
         }
         if failure.wrong == FailureKind::Contradiction {
-            return "give the motor a `limit`, move the limits of the joint that stops it, or leave out one of the two"
+            return "give the motor a `limit`, move the limits of the joint that stops it, or remove one of them"
                 .to_owned();
         }
         let rows = self.world.resource::<State>().rows().all();
         let driven = rows.iter().any(|row| row.kind == RowKind::Velocity && !row.gives_way());
         if matches!(failure.wrong, FailureKind::Joint { .. }) && driven {
-            return "a motor without a `limit` drives on with any force, also into a dead point, where bars are in line: give it a \
-                    `limit`, or let it turn back before"
+            return "a motor without a `limit` drives on with any force, also into a dead point, where bars are in line. Give it a \
+                    `limit`, or reverse it before that"
                 .to_owned();
         }
         if matches!(failure.wrong, FailureKind::Torn(_) | FailureKind::Lost(_) | FailureKind::Gone(_)) {
-            return "look at what the plugin does to the world".to_owned();
+            return "look at the changes that a plugin makes to the world".to_owned();
         }
         if matches!(failure.wrong, FailureKind::Behind(_)) {
-            return "neither stiffness nor tick matter here: the wall is open on the side that was hit".to_owned();
+            return "stiffness and tick do not matter here: the wall is open on the side that the body hit".to_owned();
         }
         let deep = matches!(failure.wrong, FailureKind::Crossed(_) | FailureKind::Sunk(_));
         let known =
             [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, far_places::rounding];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             if deep {
-                return "a stiffer contact bears more, and a finer tick sees bodies that come before they are deep inside"
+                return "a stiffer contact bears more, and a finer tick sees bodies before they are deep in each other"
                     .to_owned();
             }
             return energy::of_unknown_cause(self);

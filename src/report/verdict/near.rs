@@ -27,7 +27,7 @@ pub(super) fn of_endless_steps(evidence: &Evidence) -> String {
     match attracted(evidence) {
         Some((near, _)) => format!("{near} than steps can follow: use {REMEDY}"),
         None => {
-            "a force grows beyond all bounds as bodies come near, or at that time: bound it, or give the scene a tick"
+            "a force grows beyond all bounds as bodies come near, or at that time. Bound it, or give the scene a tick"
                 .to_owned()
         }
     }

@@ -40,7 +40,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let heavy = heavy.filter(|(ratio, ..)| *ratio > HEAVY);
     let what = match heavy {
         Some((ratio, heavier, lighter)) => format!(
-            "`{heavier}` has {ratio:.0} times the mass of `{lighter}` and is pressed into it by {by:.0} % of a radius at {}",
+            "`{heavier}` has {ratio:.0} times the mass of `{lighter}`. They overlap by {by:.0} % of a radius at {}",
             super::at(overlap.time)
         ),
         None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
@@ -59,9 +59,7 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
-    let remedy = format!(
-        "a `stiffness` some {times} times as high{with}: the overlap of such an impact is about a tenth of a radius then"
-    );
+    let remedy = format!("a `stiffness` some {times} times as high{with}: overlaps are then about a tenth of a radius");
     Some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy: Some(remedy) })
 }
 

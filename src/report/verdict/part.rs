@@ -58,11 +58,11 @@ impl fmt::Display for VerdictPart {
             Self::Model => f.write_str("the model at contacts"),
             Self::Energy => f.write_str("energy and rest"),
             Self::Impacts => f.write_str("impacts"),
-            Self::Meetings => f.write_str("that all contacts were seen"),
+            Self::Meetings => f.write_str("that the run saw all contacts"),
             Self::Places | Self::UnknownPlaces => f.write_str("places"),
             Self::PlacesAfter(time) => write!(f, "places after about {}", at(*time)),
             Self::UnknownAfter(time) => write!(f, "places after {}", at(*time)),
-            Self::FinePlaces => f.write_str("places to more than that"),
+            Self::FinePlaces => f.write_str("places to more digits"),
             Self::LastDigits => f.write_str("its last digits"),
         }
     }

@@ -24,10 +24,13 @@ pub(super) fn unstable(evidence: &Evidence) -> Option<Cause> {
         return None;
     }
     let seen = fastest
-        .map_or_else(String::new, |fastest| format!(", as `{}` at {}", evidence.name(fastest.body), at(fastest.time)));
-    let most =
-        if critical > 0.0 { format!("{} s", number(critical)) } else { "none at all under this method".to_owned() };
-    let what = format!("the tick of {} s is longer than the {holder} can bear, {most}{seen}", number(card.tick));
+        .map_or_else(String::new, |fastest| format!(" for `{}` at {}", evidence.name(fastest.body), at(fastest.time)));
+    let most = if critical > 0.0 {
+        format!("The longest stable one was {} s", number(critical))
+    } else {
+        "This method had no stable one".to_owned()
+    };
+    let what = format!("the tick of {} s is longer than the {holder} can bear. {most}{seen}", number(card.tick));
     Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
 }
 
@@ -44,8 +47,7 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     let fastest = rhythms.max_by(|a, b| a.angular_frequency.total_cmp(&b.angular_frequency))?;
     let period = TAU / fastest.angular_frequency;
     let ticks = period / card.tick;
-    let what =
-        format!("`{}` swings with {ticks:.1} ticks a period, which see it as another force than it is", fastest.path);
+    let what = format!("`{}` swings with {ticks:.1} ticks a period, which are too few to follow it", fastest.path);
     let remedy = Some(Remedy::Tick(rounded_down(period / GOOD_A_PERIOD)).or_finer());
     (card.by_ticks() && ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
 }

@@ -22,10 +22,7 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
     let (body, time) = estimated.began.as_ref()?;
-    Some(format!(
-        "a run with finer steps is elsewhere by a hundredth of the motion from {} on, `{body}` first",
-        at(*time)
-    ))
+    Some(format!("`{body}` first differs from a run with finer steps, by a hundredth of the motion at {}", at(*time)))
 }
 
 /// Chaos: any error grows until places have no correct digit.
@@ -36,10 +33,10 @@ pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     if evidence.card.energy_error() > INEXACT {
         return None;
     }
-    let body = estimated.began.as_ref().map_or_else(|| "places".to_owned(), |(body, _)| format!("`{body}` first"));
+    let first = estimated.began.as_ref().map_or_else(String::new, |(body, _)| format!(", `{body}` first"));
     let what = format!(
-        "chaos makes errors grow exponentially, and finer runs go elsewhere from then on, {body}; the gain of a finer tick grows as \
-         the logarithm of its cost"
+        "chaos makes errors grow exponentially. From then on finer runs go elsewhere{first}. That time grows only as the \
+         logarithm of the cost of a run"
     );
     estimated.chaotic.then_some(Cause { trust: Trust::ButNot(VerdictPart::PlacesAfter(horizon)), what, remedy: None })
 }
@@ -55,22 +52,22 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     let unseen =
         world.resource::<State>().contact_law().is_some() && !card.located && card.largest_overlap.meters > 0.0;
     let why = if unseen {
-        format!("contacts begin and end inside ticks, which {} sees at their ends only", card.method)
+        format!("contacts begin and end inside ticks, and {} sees them only at the ends", card.method)
     } else {
         format!("the tick of {} s is too long for the motion", number(card.tick))
     };
     let why = match (began(evidence), error.horizon) {
-        (Some(began), _) => format!("{why}: {began}"),
+        (Some(began), _) => format!("{why}. {began}"),
         (None, _) => why,
     };
     let until = error.horizon;
     let part = until.map_or(VerdictPart::FinePlaces, VerdictPart::PlacesAfter);
-    let why = if error.horizon.is_some() { why } else { format!("{why}, by {}", of_the_way(share)) };
+    let why = if error.horizon.is_some() { why } else { format!("{why}. The error is {}", of_the_way(share)) };
     let tolerance = evidence.or_tolerance();
     // Beyond a horizon the order at which errors fall is not known.
     let order = if unseen { 1.0 } else { 2.0 };
     let tick = if error.horizon.is_some() { card.tick / 10.0 } else { card.tick_for(share, INEXACT / 10.0, order) };
-    let whether = if error.horizon.is_some() { " to see whether that moves on" } else { "" };
+    let whether = if error.horizon.is_some() { " to see whether that time grows" } else { "" };
     Some(Cause {
         trust: Trust::ButNot(part),
         what: why,
@@ -81,11 +78,11 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 /// Only the beginning of the run was repeated with finer steps.
 pub(super) fn not_run_again(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.known_until().filter(|_| !evidence.card.stands)?;
-    let what = "their error is not known, as only the time before was run again with finer steps".to_owned();
+    let what = "their error is not known. Runs with finer steps cover only the time before".to_owned();
     Some(Cause {
         trust: Trust::ButNot(VerdictPart::UnknownAfter(until)),
         what,
-        remedy: Some("`--estimate`, which runs it all again".to_owned()),
+        remedy: Some("`--estimate`, which repeats the whole run".to_owned()),
     })
 }
 
@@ -101,13 +98,13 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
     };
     match known.map(|error| error.horizon.filter(|horizon| *horizon < card.time)) {
         Some(Some(horizon)) if !card.by_ticks() => {
-            cause(VerdictPart::PlacesAfter(horizon), "runs that allow another error go elsewhere from then on", None)
+            cause(VerdictPart::PlacesAfter(horizon), "runs with other tolerances go elsewhere from then on", None)
         }
         Some(_) => None,
         None if card.by_ticks() => {
-            let what = "their error is not known, as energy says nothing of a light body among heavy ones";
+            let what = "their error is not known. Energy says nothing of a light body among heavy ones";
             cause(VerdictPart::UnknownPlaces, what, Some("`--estimate`"))
         }
-        None => cause(VerdictPart::Places, "runs of it differ by more than can be told", None),
+        None => cause(VerdictPart::Places, "runs with other tolerances differ too much to give an error", None),
     }
 }

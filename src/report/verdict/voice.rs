@@ -16,20 +16,23 @@ pub(super) fn told(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Stri
     }
     let trusted = trusted(evidence, doubts);
     let trusted = match &trusted[..] {
-        [] => String::new(),
-        [one] => format!("Trust {one}. "),
-        [first @ .., last] => format!("Trust {} and {last}. ", first.join(", ")),
+        [] => None,
+        [one] => Some(format!("Trust {one}.")),
+        [first, second] => Some(format!("Trust {first} and {second}.")),
+        [first @ .., last] => Some(format!("Trust {}, and {last}.", first.join(", "))),
     };
-    let doubted: Vec<String> =
-        doubts.iter().take(MOST).map(|(part, cause)| format!("{part}: {}", cause.what)).collect();
+    let doubted = doubts.iter().take(MOST).map(|(part, cause)| format!("Do not trust {part}: {}.", cause.what));
     let mut help: Vec<&str> = doubts.iter().filter_map(|(_, cause)| cause.remedy.as_deref()).collect();
     // One step at a time: the remedy of the gravest doubt, and a better estimate.
     help.truncate(1);
     let unknown = doubts.iter().filter(|(part, _)| part.is_unknown()).filter_map(|(_, cause)| cause.remedy.as_deref());
     let first = help.first().copied();
     help.extend(unknown.filter(|remedy| Some(*remedy) != first));
-    let help = if help.is_empty() { String::new() } else { format!(" Use {}.", help.join("; ")) };
-    format!("{trusted}Do not trust {}.{help}", doubted.join("; nor "))
+    let help = help.iter().enumerate().map(|(number, remedy)| match number {
+        0 => format!("Use {remedy}."),
+        _ => format!("Also use {remedy}."),
+    });
+    trusted.into_iter().chain(doubted).chain(help).collect::<Vec<_>>().join(" ")
 }
 
 fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> {
@@ -39,8 +42,8 @@ fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> 
     let until = doubts.iter().filter_map(|(part, _)| part.places_until()).reduce(f64::min);
     if !doubted(&VerdictPart::Energy) {
         trusted.push(match card.energy_error() {
-            0.0 => "energy (all of it is accounted for)".to_owned(),
-            error => format!("energy (accounted for to {})", percent(error)),
+            0.0 => "energy (residual 0)".to_owned(),
+            error => format!("energy (residual {})", percent(error)),
         });
         let bodies = state.bodies();
         let moved = (0..bodies.len()).filter(|body| bodies.dynamic[*body]);
@@ -51,8 +54,8 @@ fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> 
         }
         match resting {
             0 => (),
-            all if all == count => trusted.push("the state of rest of all bodies".to_owned()),
-            some => trusted.push(format!("the state of rest of {some} of {count} bodies")),
+            all if all == count => trusted.push("that all bodies rest".to_owned()),
+            some => trusted.push(format!("that {some} of {count} bodies rest")),
         }
     }
     if stands(state) || doubted(&VerdictPart::Places) || doubted(&VerdictPart::UnknownPlaces) {
@@ -73,29 +76,29 @@ fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> 
 
 /// The verdict of a run without doubts.
 fn praise(evidence: &Evidence) -> String {
-    let (card, energy) = (evidence.card, energy::accounted(evidence));
+    let (card, energy) = (evidence.card, energy::residual(evidence));
     if card.stands {
-        return format!("Trust it: nothing moves; {energy}.");
+        return format!("Trust it: all bodies rest. {energy}");
     }
     let places = places(card).unwrap_or_default();
     if !card.by_ticks() {
         if card.has_tolerance() {
-            return format!("Trust it: {places}, as several runs of it tell.");
+            return format!("Trust it: {places}, as several runs tell.");
         }
         return format!(
-            "Trust it: {places} at most. A run that allows a hundred times the error differs by that. If the motion is \
-             smooth, this one is nearer to the truth by as much."
+            "Trust it: {places} at most. A run with a hundred times the tolerance differs by so much. If the motion is \
+             smooth, the error is about a hundredth of that."
         );
     }
     let share = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.share);
     let share = share.filter(|share| *share > 0.0);
-    let share = share.map_or_else(String::new, |share| format!(" ({})", of_the_way(share)));
+    let share = share.map_or_else(String::new, |share| format!(" Their error is {}.", of_the_way(share)));
     let advice = if card.energy_error() > energy::MISSING {
-        evidence.advice("; ", " would improve that")
+        card.remedy().map_or_else(String::new, |remedy| format!(" With `{remedy}` it would be smaller."))
     } else {
         String::new()
     };
-    format!("Trust it: {places}{share}, as runs with finer steps tell; {energy}{advice}.")
+    format!("Trust it: {places}, as runs with finer steps tell.{share} {energy}{advice}")
 }
 
 /// The doubts among causes, or as the error the first cause that leaves nothing to trust.

@@ -57,7 +57,7 @@ struct Climber<I: Iterator<Item = f64>> {
     ticks: std::iter::Peekable<I>,
     trials: Vec<f64>,
     settings: Vec<Setting>,
-    /// How many of the settings are trials; they come first.
+    /// The number of trials among the settings: they come first.
     trials_of_use: usize,
     /// Seconds and tick of the last one.
     last: Option<(f64, f64)>,
@@ -99,7 +99,7 @@ pub(crate) fn climb<S: Subject, I: Iterator<Item = f64>>(
         for index in 0..climbers.len() {
             if rules.leaves_behind && climbers[index].end.is_none() && behind(&climbers, index) {
                 climbers[index].end =
-                    Some("finer ticks were not tried: others have this error for a 64th of the evaluations".to_owned());
+                    Some("it takes 64 times the evaluations that others take for this error".to_owned());
             }
         }
     }
@@ -153,10 +153,10 @@ impl<I: Iterator<Item = f64>> Climber<I> {
         Ok(())
     }
 
-    /// Why it should go no further.
+    /// The reason for which it should go no further.
     fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
         let Some(next) = self.ticks.peek().copied() else {
-            return Some("no finer ticks are on its ladder".to_owned());
+            return Some("its ladder has no finer ticks".to_owned());
         };
         let last = self.settings.last()?;
         let error = match &last.outcome {
@@ -184,7 +184,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
             return Some("its errors fall no more: rounding".to_owned());
         }
         if self.settings.len() - self.trials_of_use >= rules.rungs {
-            return Some(format!("{} ticks were tried, as many as asked for", rules.rungs));
+            return Some(format!("it tried {} ticks, as many as asked for", rules.rungs));
         }
         let (spent, tick) = self.last?;
         // It is run once to be compared, and timed.

@@ -78,9 +78,9 @@ pub fn diagram(settings: &Settings, legend: DiagramLegend, peers: &[Peer]) -> Di
             content: Content::Phases(curves, None),
         },
         aside: if peers.is_empty() {
-            "ringed: nothing is more exact for less".to_owned()
+            "ringed: no setting is more exact for less".to_owned()
         } else {
-            "ringed: nothing of Jostle's is more exact for less; grey: others".to_owned()
+            "ringed: no setting of Jostle is more exact for less; grey: others".to_owned()
         },
         looks,
         spots,

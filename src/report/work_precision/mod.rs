@@ -26,7 +26,7 @@ use jostle_engine::tick::Failure;
 pub struct MethodChoice {
     /// Name of the method; `Auto`: the engine chooses.
     pub method: &'static str,
-    /// When jumps of the forces take place.
+    /// The moments at which forces jump.
     pub events: EventTiming,
 }
 
@@ -126,7 +126,7 @@ impl Setting {
 pub struct Settings {
     /// The settings.
     pub all: Vec<Setting>,
-    /// Why courses did not go on to finer ticks.
+    /// The reasons for which courses did not go on to finer ticks.
     pub ends: Vec<(MethodChoice, String)>,
     /// The kind of cost.
     pub cost: Cost,
@@ -187,7 +187,7 @@ impl Budget<'_> {
     }
 }
 
-/// How long something takes.
+/// The time that a closure takes.
 pub(super) fn timed<T>(work: impl FnOnce() -> T) -> (Duration, T) {
     let start = Instant::now();
     let done = work();

@@ -19,7 +19,7 @@ fn an_aimed_ball_flies_through_its_aim() {
         let missed = simulation.bodies().position[0].distance(glam::DVec2::new(42.0, 4.0));
         assert!(missed < 64.0 * f64::EPSILON * 60.0, "{arc}: {missed:e}");
         let card = simulation.card();
-        assert!(card.notes.iter().any(|note| note.contains("is thrown at")), "{:?}", card.notes);
+        assert!(card.notes.iter().any(|note| note.contains("and reaches its aim")), "{:?}", card.notes);
         assert!(card.energy.work.abs() < 1e-12, "it starts with its velocity: {:?}", card.energy);
     }
 }

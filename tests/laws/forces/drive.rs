@@ -93,8 +93,8 @@ fn the_card_says_what_comes_of_points_between_ticks() {
         warnings.filter(|warning| warning.contains("between ticks")).collect::<Vec<String>>()
     };
     let cases = [
-        ("Piecewise([(0.5002, 0), (0.5004, 1000), (0.5006, 0)])", "of its impulse 100 % lost;"),
-        ("Piecewise([(0.4995, 0), (0.5, 1000), (0.5005, 0)])", "of its impulse 100 % gained;"),
+        ("Piecewise([(0.5002, 0), (0.5004, 1000), (0.5006, 0)])", "Of its impulse, the run lost 100 %."),
+        ("Piecewise([(0.4995, 0), (0.5, 1000), (0.5005, 0)])", "Of its impulse, the run gained 100 %."),
     ];
     for (course, says) in cases {
         let warnings = warned(course, verlet);

@@ -21,11 +21,11 @@ fn pushed(times: &str, clock: &str) -> (f64, Vec<String>) {
 fn the_card_says_what_comes_of_times_between_ticks() {
     let close = |speed: f64, exact: f64| (speed - exact).abs() < 1000.0 * f64::EPSILON * exact.max(1.0);
     let cases = [
-        ("from: 0.5001, to: 0.5004", 0.0, "its whole impulse is lost"),
+        ("from: 0.5001, to: 0.5004", 0.0, "Its whole impulse is lost"),
         ("from: 0.5001, to: 0.5016", 2.0, "acts from 0.5 s to 0.502 s: its impulse is 33.3 % too large"),
         ("from: 0.5, to: 0.5014", 1.0, "acts from 0.5 s to 0.501 s: 28.6 % of its impulse is lost"),
-        ("from: 0.5004, to: 0.6004", 100.0, "acts from 0.5 s to 0.6 s: its impulse is right, but not its time"),
-        ("from: 0.5004", 500.0, "is to act from 0.5004 s on, but acts in whole ticks and acts from 0.5 s to 1 s"),
+        ("from: 0.5004, to: 0.6004", 100.0, "acts from 0.5 s to 0.6 s: its impulse is right, but its time is not"),
+        ("from: 0.5004", 500.0, "to act from 0.5004 s on. In whole ticks it acts from 0.5 s to 1 s"),
     ];
     for (times, exact, says) in cases {
         for method in ["VelocityVerlet", "SemiImplicitEuler"] {

@@ -114,7 +114,7 @@ impl Gradients {
     }
 }
 
-/// Which of the three rows of a contact are free of their bounds.
+/// The rows of a contact, of three, that are free of their bounds.
 fn free(blocks: &Blocks, index: usize) -> [bool; 3] {
     let (block, lane) = (index / BLOCK, index % BLOCK);
     let rolls = blocks.rolling.get(block).is_some_and(|rolling| rolling.is_free(lane));

@@ -10,7 +10,7 @@ use super::contact_direction::Mover;
 pub struct JointRowSide {
     /// The index of its mover.
     pub mover: usize,
-    /// How the velocity of the row depends on that of the mover, and the force of one unit.
+    /// The derivative of the row's velocity by that of the mover, and the force of one unit.
     pub direction: DVec2,
     /// The same for its spin, in metres; without unit if the row is a turn.
     pub lever: f64,

@@ -17,7 +17,7 @@ const WORLDS: usize = 16;
 pub(super) struct LevelSchedule {
     /// For each mover the first block that its next contact may stand in.
     after: Vec<u32>,
-    /// How many contacts each block has.
+    /// The number of contacts that each block has.
     counts: Vec<u8>,
     /// The first block that is not full and still open.
     first: usize,
@@ -35,12 +35,12 @@ impl LevelSchedule {
         self.first = 0;
     }
 
-    /// How many contacts a block has.
+    /// The number of contacts that a block has.
     pub fn count(&self, block: usize) -> usize {
         self.counts[block] as usize
     }
 
-    /// How many movers the blocks name: all, then copies of the first of them.
+    /// The number of movers that the blocks name: all, then copies of the first of them.
     pub fn movers(&self) -> usize {
         self.after.len() + WORLDS.min(self.blocks.len())
     }

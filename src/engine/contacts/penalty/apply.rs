@@ -151,7 +151,7 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
     }
 }
 
-/// How side B approaches side A; `None` is a wall.
+/// The approach of side B to side A. `None` is a wall.
 #[inline]
 pub(super) fn approach(bodies: &Bodies, a: Option<&ContactEnd>, b: &ContactEnd, normal: DVec2) -> Approach {
     let (velocity, mobility) = a.map_or((DVec2::ZERO, 0.0), |a| (a.velocity(bodies), a.mobility(bodies, normal)));

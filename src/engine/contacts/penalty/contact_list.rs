@@ -99,7 +99,7 @@ pub struct ContactList {
     pub(super) asleep: Vec<u8>,
     /// Blocks in which some contact is not asleep; only where some are.
     awake: Vec<u32>,
-    /// How many touch of those that are asleep.
+    /// The number of sleeping contacts that touch.
     asleep_touching: usize,
 }
 
@@ -107,7 +107,7 @@ pub struct ContactList {
 const TOGETHER: usize = 64;
 
 impl ContactList {
-    /// How many there are.
+    /// The number of them.
     pub fn len(&self) -> usize {
         self.len
     }
@@ -173,12 +173,12 @@ impl ContactList {
         self.phases[index / BLOCK].touching() >> (index % BLOCK) & 1 != 0
     }
 
-    /// How many touch.
+    /// The number of those that touch.
     pub fn touching_count(&self) -> usize {
         self.asleep_touching + self.awake_touching_count()
     }
 
-    /// How many touch of those that are not asleep.
+    /// The number of contacts that touch and are not asleep.
     pub(super) fn awake_touching_count(&self) -> usize {
         if self.asleep.is_empty() && !self.is_sparse() {
             // Bits of several blocks are counted at once.
@@ -199,7 +199,7 @@ impl ContactList {
         })
     }
 
-    /// How many touch, are not asleep and are `counted`; no more once there are more than `enough`.
+    /// The number of those that touch, are not asleep and are `counted`; no more once there are more than `enough`.
     pub(super) fn count_touching(&self, enough: usize, counted: impl Fn(usize) -> bool) -> usize {
         let mut count = 0;
         for number in 0..self.awake_blocks() {
@@ -238,13 +238,13 @@ impl ContactList {
         path < self.due[block]
     }
 
-    /// Which contacts of a block are asleep.
+    /// The contacts of a block that are asleep.
     #[inline(always)]
     pub(super) fn asleep_in(&self, block: usize) -> u8 {
         self.asleep.get(block).copied().unwrap_or(0)
     }
 
-    /// Which contacts of a block are there and not asleep.
+    /// The contacts of a block that exist and are not asleep.
     #[inline(always)]
     pub(super) fn awake_in(&self, block: usize) -> u8 {
         there(self.len - BLOCK * block) & !self.asleep_in(block)
@@ -382,7 +382,7 @@ pub(super) struct ListPart<'a> {
     pub first: usize,
     /// Of the whole list.
     pub pairs: &'a PairBlocks,
-    /// How many there are in the whole list.
+    /// The number of them in the whole list.
     len: usize,
     pub law: &'a [[u32; BLOCK]],
     pub only_law: Option<u32>,
@@ -416,7 +416,7 @@ impl ListPart<'_> {
         path < self.due[block]
     }
 
-    /// How many contacts a block has.
+    /// The number of contacts that a block has.
     #[inline(always)]
     pub fn count_in(&self, block: usize) -> usize {
         BLOCK.min(self.len - BLOCK * (self.first + block))
@@ -427,13 +427,13 @@ impl ListPart<'_> {
         self.asleep.is_empty() && self.looked_at.is_empty() && self.awake.is_none()
     }
 
-    /// Which contacts of a block are there.
+    /// The contacts of a block that exist.
     #[inline(always)]
     pub fn there_in(&self, block: usize) -> u8 {
         there(self.count_in(block))
     }
 
-    /// Which contacts of a block are there, not asleep, and have to be looked at.
+    /// The contacts of a block that exist, are not asleep, and need a look.
     #[inline(always)]
     pub fn awake_in(&self, block: usize) -> u8 {
         let looked_at = self.looked_at.get(block).copied().unwrap_or(u8::MAX);

@@ -165,13 +165,13 @@ fn book(
 }
 
 impl PairGeometry {
-    /// How side B approaches side A.
+    /// The approach of side B to side A.
     #[inline]
     pub(super) fn approach(&self, bodies: &Bodies) -> Approach {
         approach(bodies, self.pair.other_end(), &self.pair.b, self.pair.normal)
     }
 
-    /// How [`PairGeometry::approach`] changes under the present forces.
+    /// The derivative of [`PairGeometry::approach`] under the present forces.
     pub(super) fn change(&self, law: &PairLaw, bodies: &Bodies) -> Change {
         Change { parting: self.parting_rate(law.shares(), bodies), mobility: self.mobility_rate(bodies) }
     }

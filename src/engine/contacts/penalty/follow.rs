@@ -14,7 +14,7 @@ pub(super) struct Touch<V> {
     pub normal: (V, V),
     /// Overlap in metres, positive when touching.
     pub overlap: V,
-    /// How the sides approach, for laws that depend on it.
+    /// The approach of the sides, for laws that depend on it.
     pub approach: Approach<V>,
     /// Displacement of B's centre relative to A's since the last accepted state, in metres.
     pub displacement: (V, V),

@@ -199,7 +199,7 @@ struct Geometry {
     turn: [[f64; BLOCK]; 2],
     parting: [f64; BLOCK],
     block: usize,
-    /// Which pairs are there, are not asleep, and are near enough to touch or did.
+    /// The pairs that exist, are not asleep, and are near enough to touch or did.
     among: u8,
 }
 
@@ -207,7 +207,7 @@ struct Geometry {
 /// of several blocks at the same time.
 const AHEAD: usize = 4;
 
-/// How many blocks before they are looked at records are fetched: the time of some two hundred nanoseconds.
+/// The number of blocks by which the fetch of records runs ahead: the time of some two hundred nanoseconds.
 const FETCHED: usize = 10;
 
 impl<N: NormalForce> Kernel for FollowPairs<'_, N> {

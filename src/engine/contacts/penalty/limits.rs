@@ -19,11 +19,15 @@ pub(super) fn notes(settings: &Penalty, materials: &Materials, bodies: &Bodies) 
     let clumps = (0..bodies.len()).any(|body| bodies.atoms_of(body).len() > 1);
     let least = restitution_of(largest_inelasticity(materials));
     if clumps {
-        notes.push("contacts: under Dashpot the restitution is that of one atom; a body that lands on n at once rebounds less, its damping ratio is up to sqrt(n) times as large".to_owned());
+        notes.push(
+            "contacts: under Dashpot the restitution is that of one atom. A body that lands on n atoms at once \
+        rebounds less. Its damping ratio is up to sqrt(n) times as large"
+                .to_owned(),
+        );
     }
     if settings.damping.is_none() && settings.damping_rate.is_none() && least < dashpot::LEAST_RESTITUTION {
         let limit = dashpot::LEAST_RESTITUTION;
-        notes.push(format!("contacts: Dashpot cannot give the restitution {least}; {limit} is used"));
+        notes.push(format!("contacts: Dashpot cannot give the restitution {least}, and gives {limit}"));
     }
     notes
 }

@@ -118,8 +118,8 @@ pub(super) fn remark(bodies: &Bodies, ticks: u64) -> Option<String> {
     let flown = bodies.flights.flown();
     (flown > 0).then(|| {
         format!(
-            "flight: in {flown} of {ticks} ticks discs on which nothing but their weight acted were moved along their parabolas, \
-             not tick by tick"
+            "flight: in {flown} of {ticks} ticks some discs bore only their weight. The engine moved them along their \
+             parabolas, not tick by tick"
         )
     })
 }

@@ -62,11 +62,10 @@ use crate::world::Materials;
 pub struct Penalty {
     /// The law across the surface. Default: `Inelasticity`.
     pub normal: NormalLaw,
-    /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: what gives the restitution of the pair.
+    /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: from the restitution of the pair.
     pub damping: Option<Damping>,
-    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`. All
-    /// contacts then lose their speed alike. It is the `gamma_n` of LAMMPS. Default: none, `damping` or the restitution
-    /// counts.
+    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`. All contacts
+    /// then lose their speed alike. It is the `gamma_n` of LAMMPS. Default: none.
     pub damping_rate: Option<Rate>,
     /// The law along the surface, friction. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,
@@ -129,8 +128,8 @@ pub enum RollingLaw {
     None,
     /// A spring that gives way at a torque of `friction` times normal force and rolling radius.
     Spring {
-        /// Torque over normal force and rolling radius at which the spring gives way. It is the tangent of the steepest slope on
-        /// which a disc stays. Not negative; with 0 nothing resists rolling, as with `None`.
+        /// Torque over normal force and rolling radius at which the spring gives way. It is the tangent of the steepest
+        /// slope on which a disc stays. Not negative. With 0 bodies roll freely, as with `None`.
         friction: f64,
         /// Stiffness of the spring at the rim over that of the normal one. Default: 0.8.
         #[serde(default = "default_ratio")]

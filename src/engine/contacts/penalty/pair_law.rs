@@ -48,7 +48,7 @@ impl PairLaw {
         }
     }
 
-    /// How the sides share their overlap.
+    /// The shares of the sides in their overlap.
     #[inline]
     pub(crate) fn shares(&self) -> Shares {
         Shares { a: self.share_a, b: self.share_b }

@@ -41,7 +41,7 @@ fn springs<'a>(
     contacts.atoms.iter().chain(contacts.surfaces.iter()).zip(rolling.atoms.iter().chain(&rolling.surfaces))
 }
 
-/// How many angles are state.
+/// The number of angles in the state.
 pub(super) fn length(contacts: &PenaltyContacts, rolling: &RollingContacts) -> usize {
     springs(contacts, rolling).filter(is_state).count()
 }

@@ -40,8 +40,8 @@ pub(super) fn remark(schedule: &SearchSchedule, ticks: u64) -> Option<String> {
     let waited = schedule.waited;
     (waited > 0).then(|| {
         format!(
-            "contacts: in {waited} of {ticks} ticks more than {MANY} contacts were not at rest: no body was laid to rest there, and \
-             friction was held by its springs alone; in those between rest was looked for"
+            "contacts: in {waited} of {ticks} ticks more than {MANY} contacts were not at rest. The engine did not look for \
+             rest in these ticks, and springs alone held friction. It looked for rest in the others"
         )
     })
 }
@@ -49,7 +49,7 @@ pub(super) fn remark(schedule: &SearchSchedule, ticks: u64) -> Option<String> {
 /// The result of a search.
 #[derive(Clone, Copy, Debug, Default)]
 pub(super) struct Found {
-    /// Something was laid to rest.
+    /// The search laid a body to rest.
     pub rest: bool,
     /// All contacts of some large island stop.
     pub stops: bool,

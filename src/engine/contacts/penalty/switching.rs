@@ -101,7 +101,7 @@ fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
     sticks && laws.get(contact.law).tangential().acts()
 }
 
-/// How many elongations are state.
+/// The number of elongations in the state.
 pub(super) fn length(contacts: &PenaltyContacts) -> usize {
     springs(contacts).count()
 }

@@ -41,7 +41,7 @@ struct Overlaps {
     /// More pairs of atoms than this are too many.
     most: usize,
     pairs: Vec<Pair>,
-    /// How many pairs of atoms that are.
+    /// The number of pairs of atoms in them.
     atoms: usize,
     /// Whether there may be more.
     more: bool,
@@ -127,7 +127,7 @@ pub(super) fn note_overlaps(world: &mut World) {
     if atoms > most {
         let message =
             format!("at the start more than {most} pairs of atoms overlap: so many contacts do not fit into memory");
-        let help = "move them apart, or give those that are not to touch `collides: false`";
+        let help = "move them apart, or give `collides: false` to bodies that are not to touch";
         let error = SceneError::new("bodies", message).with_help(help);
         return world.get_resource_or_init::<LoadErrors>().0.push(error);
     }
@@ -141,14 +141,15 @@ pub(super) fn note_overlaps(world: &mut World) {
     let who = match pairs.len() {
         1 => format!("`{a}` and `{b}` overlap by {overlap} m, {percent} % of the smaller radius"),
         many => format!(
-            "{}{many} pairs overlap by more than {} % of the smaller radius, deepest `{a}` and `{b}` by {overlap} m ({percent} %)",
+            "{}{many} pairs overlap by more than {} % of the smaller radius. The deepest are `{a}` and `{b}` by {overlap} m \
+             ({percent} %)",
             if more { "at least " } else { "" },
             100.0 * SHARE
         ),
     };
     let note = format!(
-        "at the start {who}: their contacts begin compressed and push bodies apart that no load holds; if that is not meant, move them \
-         apart, make them smaller, or give them `collides: false`"
+        "at the start {who}. Their compressed contacts push bodies apart, unless a load presses them together. To prevent it, \
+         move them apart, make them smaller, or give them `collides: false`"
     );
     world.resource_mut::<Notes>().0.push(note);
     world.insert_resource(begin);

@@ -19,14 +19,14 @@ pub(super) fn note_behind(world: &mut World) {
         let bodies = world.resource::<State>().bodies();
         let is_line = bodies.walls.iter().any(|wall| wall.entity == entity && wall.line.is_some());
         let cause = match (is_line, has_thickness) {
-            (false, _) => "it pushes them out at once; perhaps its `left` and `right` are swapped",
-            (true, true) => "they enter it without a force; perhaps `Left` and `Right` are swapped in its `sides`",
+            (false, _) => "It pushes them out at once. Perhaps its `left` and `right` are swapped",
+            (true, true) => "They enter it without a force. Perhaps `Left` and `Right` are swapped in its `sides`",
             (true, false) => {
-                "they enter it without a force, for it is open to the left of the way from its first point to its last; perhaps its \
-                 points stand in the wrong order"
+                "They enter it without a force. It is open to the left of the way from its first point to its last. Perhaps \
+                 its points stand in the wrong order"
             }
         };
-        let note = format!("all bodies that move by forces are behind `{name}`: {cause}");
+        let note = format!("all bodies that move by forces are behind `{name}`. {cause}");
         world.resource_mut::<Notes>().0.push(note);
     }
 }

@@ -336,7 +336,7 @@ impl Cells {
         let most = CELLS_PER_ATOM * all.len().max(1) as f64;
         let cells = |columns: &Axis, rows: &Axis| columns.count as f64 * rows.count as f64;
         if cells(&columns, &rows) > WASTE * most {
-            // Something lies far from the rest.
+            // A body lies far from the rest.
             columns.compress(all.iter().map(|entry| entry.center.x));
             rows.compress(all.iter().map(|entry| entry.center.y));
         }

@@ -300,7 +300,7 @@ impl Watched {
         Some((Self { pair, place, touched: met.map(|met| (met.nearest.normal, met.place)), left }, path + 0.5 * left))
     }
 
-    /// How far in m it has yet to go; nothing where that is not known.
+    /// The rest of its way in m, or `None` if that is not known.
     fn left_now(&self, bodies: &Bodies) -> f64 {
         let Some((_, now)) = place_at_hull(self.pair, bodies) else { return 0.0 };
         let moved = now.distance(self.place);

@@ -20,15 +20,15 @@ pub(super) fn note_sharp(world: &mut World) {
     let among: Vec<usize> = (0..bodies.len()).filter(|&body| sharp(body)).collect();
     let is_thin = bodies.walls.iter().any(PackedWall::is_thin);
     let meets = match (among.len() > 1, is_thin) {
-        (true, false) => "two sharp shapes meet, their corners are",
-        (false, true) => "a sharp shape meets a strip without thickness, its corners are",
-        (true, true) => "two sharp shapes meet, or one meets a strip without thickness, corners are",
+        (true, false) => "if two sharp shapes meet, their corners are",
+        (false, true) => "if a sharp shape meets a strip without thickness, its corners are",
+        (true, true) => "if two sharp shapes meet, or one meets a strip without thickness, their corners are",
         (false, false) => return,
     };
     if among.iter().any(|&body| bodies.dynamic[body]) {
         let percent = 100.0 * ROUNDING;
         world.resource_mut::<Notes>().0.push(format!(
-            "where {meets} round, with {percent} % of half their width; give them `rounding` to choose it"
+            "{meets} round, with {percent} % of half their width. Give shapes a `rounding` to choose another"
         ));
     }
 }
@@ -47,9 +47,10 @@ pub(super) fn refuse_pointed(world: &mut World) {
     let Some(body) = moving.find(|&body| bodies.atoms_of(body).any(is_pointed)) else { return };
     let name = |entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let (body, wall) = (name(bodies.entity[body]), name(thin.entity));
-    let message = format!("`{body}` has sharp corners, and `{wall}` no thickness: they would pass through each other");
+    let message =
+        format!("`{body}` has sharp corners, and `{wall}` has no thickness: they would pass through each other");
     let help =
-        format!("give `{wall}` a `thickness`, or `sides: Left` or `Right`; or the parts of `{body}` a `rounding`");
+        format!("give `{wall}` a `thickness`, or `sides: Left` or `Right`. Or give the parts of `{body}` a `rounding`");
     let error = SceneError::new("bodies", message).with_help(help);
     world.get_resource_or_init::<LoadErrors>().0.push(error);
 }

@@ -16,7 +16,8 @@ pub(super) fn refuse_sunk(world: &mut World) {
     let name = |entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let (body, wall) = (name(bodies.entity[body]), name(bodies.walls[wall].entity));
     let message = format!(
-        "`{body}` begins with a corner {} m behind `{wall}`: so deep behind a line there is no contact, and it would fall through",
+        "`{body}` begins with a corner {} m behind `{wall}`. A line makes no contact so deep behind it, and the body would \
+         fall through",
         number(depth)
     );
     let help = "move it to the open side, or let a wall with `left` and `right` hold it";

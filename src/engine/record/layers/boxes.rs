@@ -17,7 +17,7 @@ use crate::world::Bodies;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Boxes {
-    /// The bodies, `*` matches. Default: all that move.
+    /// The bodies. `*` stands for any letters. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
 }

@@ -25,11 +25,11 @@ use crate::tick::{AfterLoad, State};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct ContactForces {
-    /// The bodies, `*` matches. Default: all that move.
+    /// The bodies. `*` stands for any letters. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
-    /// The force in N whose arrow is a tenth of the picture's height long. Default: from the weight of a body of the
-    /// scene, and without gravity from the force with which it stops.
+    /// The force in N whose arrow is a tenth of the picture's height long. It follows from the weight of a body, and
+    /// without gravity from the force that stops a body. Default: from the scene.
     #[serde(default)]
     scale: Option<Force>,
 }

@@ -28,10 +28,10 @@ const LINE: f64 = 0.042;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct FreeBody {
-    /// The bodies, `*` matches. Default: all that move.
+    /// The bodies. `*` stands for any letters. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
-    /// The forces that are drawn. Default: all five.
+    /// The forces that the layer draws. Default: all five.
     #[serde(default = "all")]
     parts: Vec<Part>,
     /// The force whose arrow is a tenth of the picture's height long, in N. Default: as for `ContactForces`.

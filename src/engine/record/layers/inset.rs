@@ -16,7 +16,7 @@ use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 struct Inset {
     /// The place in its middle, in m.
     center: LengthPair,
-    /// How high and wide the part is, in m. Above zero.
+    /// The height and width of the part, in m. Above zero.
     height: Length,
     /// The corner of the picture: `TopLeft`, `TopRight`, `BottomLeft` or `BottomRight`. Default: `BottomRight`.
     #[serde(default)]

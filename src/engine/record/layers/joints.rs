@@ -17,7 +17,7 @@ use crate::tick::State;
 const HINGE: f64 = 0.006;
 
 /// Joints: an arm from the centre of each body to its anchor, and a ring at the anchor. Anchors in the world have a dot
-/// inside. Shown by default if a scene has joints.
+/// inside. A scene with joints shows them by default.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Joints {}

@@ -183,10 +183,7 @@ pub(crate) fn install_wanted(outline: &Outline, app: &mut App) {
 /// Registers the layers of this folder, from back to front.
 pub fn plugin(app: &mut App) {
     app.register_entry_section(LAYERS, Arity::Words, "layers: [Trails(seconds: 1), ContactForces, ScaleBar, Time]");
-    app.describe_section(
-        LAYERS,
-        "Layers that are drawn beside bodies, walls and title. `--layers` chooses others for one film.",
-    );
+    app.describe_section(LAYERS, "The layers beside bodies, walls and title. `--layers` chooses others for one film.");
     trails::plugin(app);
     boxes::plugin(app);
     springs::plugin(app);

@@ -20,7 +20,7 @@ const MOST: usize = 60;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Names {
-    /// The bodies, `*` matches. Default: all mobile bodies, if they are at most sixty.
+    /// The bodies. `*` stands for any letters. Default: all mobile bodies, if they are at most sixty.
     #[serde(default)]
     of: Option<Choice>,
 }

@@ -27,8 +27,8 @@ const SPIRAL: f64 = 0.03;
 /// Lines of a spiral in each turn.
 const SIDES: f64 = 20.0;
 
-/// Springs as coils between their ends, torsion springs as spirals about the centre of their body. Shown by default if
-/// a scene has springs.
+/// Springs as coils between their ends, torsion springs as spirals about the centre of their body. A scene with springs
+/// shows them by default.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Springs {}

@@ -28,10 +28,10 @@ const ALL_POINTS: usize = 1 << 15;
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Trails {
-    /// The bodies, `*` matches. Default: all that move.
+    /// The bodies. `*` stands for any letters. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
-    /// How long a trail is, in s of physics. Above zero. Default: 0.5.
+    /// The length of a trail, in s of physics. Above zero. Default: 0.5.
     #[serde(default = "half_a_second")]
     seconds: Time,
 }
@@ -62,7 +62,7 @@ impl OfBodies for Trails {
 /// The past positions of bodies.
 struct Tracks {
     shown: Shown,
-    /// How long a trail is, in seconds.
+    /// The length of a trail, in seconds.
     seconds: f64,
     /// The most points of a trail.
     points: usize,

@@ -17,11 +17,11 @@ use crate::tick::{AfterLoad, State};
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Velocities {
-    /// The bodies, `*` matches. Default: all that move.
+    /// The bodies. `*` stands for any letters. Default: all that move.
     #[serde(default)]
     of: Option<Names>,
-    /// The speed whose arrow is a tenth of the picture's height long, in m/s. Default: from the speeds at the start, and
-    /// what falling through a tenth of the picture gives.
+    /// The speed whose arrow is a tenth of the picture's height long, in m/s. It follows from the speeds at the start, and
+    /// from that of a fall through a tenth of the picture. Default: from the scene.
     #[serde(default)]
     scale: Option<Speed>,
 }

@@ -11,11 +11,12 @@ use crate::scene::{Diagnostics, Entry, NameKind, Outline, WrittenEntry};
 /// The name of the section that takes one camera.
 pub const SECTION: &str = "camera";
 /// The meaning of the section.
-pub const MEANING: &str = "Which part of the world the film shows. Without this section `Fit`, with its default.";
+pub const MEANING: &str = "The part of the world that the film shows. Without this section the camera is `Fit`, with its \
+default.";
 /// One correct use of the section.
 pub const EXAMPLE: &str = "camera: Fit(margin: 0.05)";
 
-/// Everything that moves stays in the picture.
+/// All bodies that move stay in the picture.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Fit")]
@@ -90,7 +91,7 @@ pub struct FollowCamera {
     pub of: String,
     /// The height of the picture, in m. Above zero.
     pub height: Length,
-    /// How far the camera is behind, in s of film. Default: 0, the body is always in the middle.
+    /// The delay of the camera, in s of film. With 0 the body is always in the middle. Default: 0.
     #[serde(default)]
     pub smoothing: Time,
 }
@@ -117,7 +118,7 @@ impl Entry for FollowCamera {
 /// The camera of the scene. Absent: everything fits, with the default margin.
 #[derive(Resource, Clone, Debug)]
 pub enum CameraChoice {
-    /// Everything that moves stays in the picture.
+    /// All bodies that move stay in the picture.
     Fit(FitCamera),
     /// A fixed part of the world.
     Look(LookCamera),

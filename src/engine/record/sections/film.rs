@@ -12,7 +12,7 @@ use crate::scene::{Diagnostics, NameKind, Outline, Section};
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
 
-/// The part of the run that is drawn. It never changes the physics.
+/// The part of the run that the film shows. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Film")]
@@ -23,16 +23,17 @@ pub struct FilmSection {
     /// Width and height in pixels, each from 16 to 8192. Default: (1280, 720).
     #[serde(default)]
     pub size: Option<(WholeNumber, WholeNumber)>,
-    /// Seconds of physics per second of film; below zero the film runs backwards. Default: 1.
+    /// Seconds of physics per second of film. Below zero the film runs backwards. Default: 1.
     #[serde(default)]
     pub speed: Option<Scalar>,
     /// First moment drawn, in s of physics. Default: 0.
     #[serde(default)]
     pub from: Option<Time>,
-    /// Last moment drawn, in s of physics, after `from`. Default: the end of the run; a later moment means the end.
+    /// Last moment drawn, in s of physics, after `from`. A moment after the end of the run means the end. Default: the end
+    /// of the run.
     #[serde(default)]
     pub to: Option<Time>,
-    /// The moments at which the film stands still. Default: nowhere.
+    /// The moments at which the film stands still. Default: none.
     #[serde(default)]
     pub freeze: Vec<FreezeEntry>,
 }
@@ -45,7 +46,7 @@ pub struct FreezeEntry {
     /// The moment, in s of physics, from the film's beginning to its end. Default: from `touch`.
     #[serde(default)]
     pub at: Option<Time>,
-    /// Two bodies, or a body and a wall: the moment of their first contact in the film, to a tick. Default: from `at`.
+    /// Two bodies, or a body and a wall. The film stands still at their first contact in it, to a tick. Default: from `at`.
     #[serde(default)]
     pub touch: Option<(String, String)>,
     /// The duration of the still, in s of film. Above zero.
@@ -78,7 +79,7 @@ impl FreezeEntry {
             }
             (Some(_), Some(_)) => {
                 let help = "leave out `at` to wait for the contact, or `touch` to give the time";
-                report.error("", "`at` and `touch` cannot both be given").help(help);
+                report.error("", "`at` and `touch` exclude each other").help(help);
             }
             (None, None) => {
                 let help = "add `at: 1.5` (s of physics) or `touch: (\"ball\", \"floor\")`";

@@ -17,7 +17,7 @@ pub const LAYERS: &str = "look.layers";
 /// The layers that may occur more than once, with other bodies or another position each time.
 const REPEATABLE: [&str; 2] = ["Trails", "Inset"];
 
-/// How films look. It never changes the physics.
+/// The look of films. It never changes the physics.
 #[derive(Resource, Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Look")]

@@ -30,11 +30,12 @@ pub struct PlotEntry {
     /// The words above it. Default: the common part of the names of its channels.
     #[serde(default)]
     pub title: Option<String>,
-    /// Channels to plot against time; `*` stands for any letters of the names of bodies. Default: none; a plot has these, or
-    /// `x` and `y`, or `histogram`.
+    /// Channels to plot against time. `*` stands for any letters of the names of bodies. A plot has these, or `x` and `y`,
+    /// or `histogram`. Default: none.
     #[serde(default)]
     pub channels: Option<Vec<String>>,
-    /// The channel to the right of a phase portrait; `*.position.x` draws each channel over that of its own body. Default: none.
+    /// The channel to the right of a phase portrait. `*.position.x` draws each channel over that of its own body. Default:
+    /// none.
     #[serde(default)]
     pub x: Option<String>,
     /// The channel, or channels, upwards. Default: none.
@@ -46,11 +47,10 @@ pub struct PlotEntry {
     /// The ends of the upward axis, in the channels' unit. Default: those of the values.
     #[serde(default)]
     pub range: Option<(Scalar, Scalar)>,
-    /// Whether the axis is logarithmic; values that are not above zero are not shown. Default: `false`.
+    /// Whether the axis is logarithmic. The plot then shows only values above zero. Default: `false`.
     #[serde(default)]
     pub log: bool,
-    /// How long the way stays in a phase portrait, in s of physics, while it fades. Above zero. Default: all of it
-    /// stays.
+    /// The time in s of physics after which the way in a phase portrait has faded. Above zero. Default: the whole run.
     #[serde(default)]
     pub tail: Option<Time>,
 }
@@ -61,16 +61,16 @@ pub struct PlotEntry {
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Histogram")]
 pub struct HistogramEntry {
-    /// The bodies, `*` matches. Default: from `channel`.
+    /// The bodies. `*` stands for any letters. Default: from `channel`.
     #[serde(default)]
     pub of: Option<Names>,
     /// Their quantity, such as `position.x`. Default: from `channel`.
     #[serde(default)]
     pub quantity: Option<String>,
-    /// Instead of bodies: a channel, whose values since the beginning are counted. Default: from `of` and `quantity`.
+    /// A channel instead of bodies. The plot counts its values since the beginning. Default: from `of` and `quantity`.
     #[serde(default)]
     pub channel: Option<String>,
-    /// How many bins, from 1 to 200. Default: 12.
+    /// The number of bins, from 1 to 200. Default: 12.
     #[serde(default = "bins")]
     pub bins: WholeNumber,
     /// The beginning of the first bin, in the quantity's unit.

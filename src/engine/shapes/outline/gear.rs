@@ -9,14 +9,14 @@ use crate::scene::units::{Angle, Length};
 sided! {
     /// A spur gear about its origin; one tooth points along +x. Its pitch diameter is teeth times module.
     GearShape, "Gear" {
-        /// How many teeth it has. From 3 to 1000.
+        /// The number of its teeth. From 3 to 1000.
         teeth: usize,
         /// Pitch diameter over number of teeth, in m. Above zero.
         module: Length,
         /// Angle in rad between the line of action and the common tangent of the pitch circles. Default: 20 degrees.
         #[serde(default)]
         pressure_angle: Option<Angle>,
-        /// Play in m between two such gears along the pitch circle; each gives half of it. Default: 0.
+        /// Play in m between two such gears along the pitch circle. Each gives half of it. Default: 0.
         #[serde(default)]
         backlash: Length,
         /// The number of chords for the involute of each flank. From 1 to 64. Default: 8.

@@ -89,7 +89,7 @@ macro_rules! sided {
             /// Its origin in the frame of the body, in m. Default: (0, 0).
             #[serde(default)]
             pub at: crate::scene::units::LengthPair,
-            /// How far it is turned about that point, in rad, counter-clockwise. Default: 0.
+            /// Its turn about that point, in rad, counter-clockwise. Default: 0.
             #[serde(default)]
             pub angle: crate::scene::units::Angle,
             /// The mass in kg. Above zero. Default: density times area.
@@ -98,7 +98,7 @@ macro_rules! sided {
             /// The density in kg/m2. Above zero. Default: that of the material.
             #[serde(default)]
             pub density: Option<crate::scene::units::Density>,
-            /// Whether it touches others; without, it is seen and has its mass. Default: `true`.
+            /// Whether it touches other bodies and walls. If not, it is still visible and has its mass. Default: `true`.
             #[serde(default = "super::yes")]
             pub collides: bool,
         }
@@ -151,11 +151,11 @@ list! {
     Rectangle(rectangle::RectangleShape),
     /// `Regular(sides: 6, radius: 0.1)`: a regular polygon about the origin, with a corner at +x.
     Regular(regular::RegularShape),
-    /// `Polygon(points: [(0, 0), (1, 0), (0, 1)])`: a polygon; a concave one is cut into convex parts.
+    /// `Polygon(points: [(0, 0), (1, 0), (0, 1)])`: a polygon. The engine cuts a concave one into convex parts.
     Polygon(polygon::PolygonShape),
     /// `Svg(file: "part.svg", height: 0.2)`: the outlines of a drawing, cut into convex parts.
     Svg(svg::SvgShape),
-    /// `Gear(teeth: 24, module: "5 mm")`: a spur gear with involute teeth about the origin; one tooth points along +x.
+    /// `Gear(teeth: 24, module: "5 mm")`: a spur gear with involute teeth about the origin. One tooth points along +x.
     Gear(gear::GearShape),
     /// `Rack(teeth: 12, module: "5 mm")`: a bar with teeth above, its pitch line along x through the origin.
     Rack(rack::RackShape),

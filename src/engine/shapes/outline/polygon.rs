@@ -1,4 +1,4 @@
-//! `Polygon(points, rounding)`: a polygon; a concave one is cut into convex parts.
+//! `Polygon(points, rounding)`: a polygon. The engine cuts a concave one into convex parts.
 
 use glam::DVec2;
 use jostle_shapes as shapes;
@@ -12,7 +12,7 @@ sided! {
     PolygonShape, "Polygon" {
         /// Its corners in m, in order around it.
         points: Vec<LengthPair>,
-        /// The radius of its corners in m; those that bend inwards stay sharp. Default: 0.
+        /// The radius of its corners in m. Corners that bend inwards stay sharp. Default: 0.
         #[serde(default)]
         rounding: Length,
     }

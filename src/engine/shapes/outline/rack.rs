@@ -9,14 +9,14 @@ use crate::scene::units::{Angle, Length};
 sided! {
     /// A bar with teeth above; its pitch line lies along x through its origin, the middle of its length.
     RackShape, "RackShape" {
-        /// How many teeth it has. From 1 to 1000.
+        /// The number of its teeth. From 1 to 1000.
         teeth: usize,
         /// Distance of the teeth over pi, in m. Above zero.
         module: Length,
         /// Angle in rad between the flanks and the normal of the pitch line. Default: 20 degrees.
         #[serde(default)]
         pressure_angle: Option<Angle>,
-        /// Play in m between it and its gear; it gives half of it. Default: 0.
+        /// Play in m between the rack and its gear. The rack gives half of it. Default: 0.
         #[serde(default)]
         backlash: Length,
         /// Thickness in m of the bar below the roots. Default: two modules.

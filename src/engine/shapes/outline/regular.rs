@@ -9,9 +9,9 @@ use crate::scene::units::Length;
 sided! {
     /// A regular polygon about its origin, with a corner at +x.
     RegularShape, "Regular" {
-        /// How many sides it has. From 3 to 10 000.
+        /// The number of its sides. From 3 to 10 000.
         sides: usize,
-        /// The radius in m of the circle through its corners, before they are rounded. Above zero.
+        /// The radius in m of the circle through its sharp corners. Above zero.
         radius: Length,
         /// The radius of its corners in m. Default: 0.
         #[serde(default)]

@@ -18,17 +18,17 @@ sided! {
         /// The id of the one element that counts, a group or an outline. Default: all of them.
         #[serde(default)]
         id: Option<String>,
-        /// The height of the drawing, in m. Above zero. Either this or `unit`. Default: from `unit`.
+        /// The height of the drawing, in m. Above zero. Write this or `unit`. Default: from `unit`.
         #[serde(default)]
         height: Option<Length>,
-        /// The length of one unit of the drawing, in m. Above zero. Either this or `height`. Default: from `height`.
+        /// The length of one unit of the drawing, in m. Above zero. Write this or `height`. Default: from `height`.
         #[serde(default)]
         unit: Option<Length>,
         /// The greatest distance of chords from their curves, in m. Above zero. Points that are nearer than a hundredth
         /// of it count as one. Default: a thousandth of the height.
         #[serde(default)]
         tolerance: Option<Length>,
-        /// The radius of its corners in m; those that bend inwards stay sharp. Default: 0.
+        /// The radius of its corners in m. Corners that bend inwards stay sharp. Default: 0.
         #[serde(default)]
         rounding: Length,
         /// The outlines of the drawing: the corners of each, in m. Not written by hand.

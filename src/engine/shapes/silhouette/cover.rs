@@ -95,7 +95,7 @@ fn rows_of(spot: Spot, mask: &Mask) -> impl Iterator<Item = (usize, std::ops::Ra
 }
 
 impl Mask {
-    /// How many pixels high a disc of a share of the height is.
+    /// The height in pixels of a disc of a share of the height.
     fn pixels(&self, share: f64) -> f64 {
         share * self.rows as f64
     }

@@ -135,7 +135,8 @@ fn note(name: &str, fineness: Fineness, covering: &Covering) -> String {
     let percent = |share: f64| format!("{:.1} %", 100.0 * share);
     let atoms = if discs.len() == 1 { "atom covers" } else { "atoms cover" };
     format!(
-        "{name}: {} {atoms} {} of the silhouette{fewer} and {} of its area outside; outlines are up to {} of the height apart",
+        "{name}: {} {atoms} {} of the silhouette{fewer}, and {} of its area outside. The outlines are up to {} of the height \
+         apart",
         discs.len(),
         percent(1.0 - uncovered),
         percent(*outside),

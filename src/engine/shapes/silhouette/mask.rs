@@ -82,7 +82,7 @@ impl Mask {
         Some(mask)
     }
 
-    /// How many pixels it has.
+    /// The number of pixels that it has.
     pub(super) fn area(&self) -> usize {
         self.inside.iter().filter(|inside| **inside).count()
     }

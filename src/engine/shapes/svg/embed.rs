@@ -50,7 +50,7 @@ impl Embed for Drawings {
     }
 }
 
-/// How large it becomes.
+/// Its size in the scene.
 fn size(shape: &SvgShape) -> Result<Size, Wrong> {
     let numbers = [("height", shape.height), ("unit", shape.unit), ("tolerance", shape.tolerance)];
     for (field, length) in numbers {
@@ -62,7 +62,7 @@ fn size(shape: &SvgShape) -> Result<Size, Wrong> {
     match (shape.height, shape.unit) {
         (Some(height), None) => Ok(Size::Height(height.si())),
         (None, Some(unit)) => Ok(Size::Unit(unit.si())),
-        (Some(_), Some(_)) => Err(("`height` and `unit` cannot both be given".to_owned(), help.to_owned(), "unit")),
+        (Some(_), Some(_)) => Err(("`height` and `unit` exclude each other".to_owned(), help.to_owned(), "unit")),
         (None, None) => Err(("the field `height` or `unit` is missing".to_owned(), help.to_owned(), "file")),
     }
 }
@@ -83,9 +83,9 @@ fn note(shape: &SvgShape, outlines: &Outlines) -> String {
     let points: usize = polygons.iter().map(Vec::len).sum();
     let made = SvgShape { outlines: pairs(polygons), ..shape.clone() }.made();
     let parts = made.map_or_else(|_| String::new(), |made| format!(" in {}", counted(made.hulls.len(), "convex part")));
-    let left_out = if left_out.is_empty() { String::new() } else { format!("; left out: {}", left_out.join(", ")) };
+    let left_out = if left_out.is_empty() { String::new() } else { format!(". Not read: {}", left_out.join(", ")) };
     format!(
-        "{}: {} of {points} points{parts}; curves are met to within {} m, and {:.3} % of the area is lost{left_out}",
+        "{}: {} of {points} points{parts}. Points lie within {} m of the curves, and {:.3} % of the area is lost{left_out}",
         shape.file,
         counted(polygons.len(), "outline"),
         number(*tolerance),

@@ -37,8 +37,8 @@ const MOST_OF_A_RUN: f64 = 1e10;
 
 fn endless(duration: f64, evaluations: f64) -> SceneError {
     let message = format!(
-        "these {} s would be run several times to find steps that keep the tolerance, with {evaluations:.0e} evaluations of all \
-         forces each: that takes more than hours",
+        "the search for steps that keep the tolerance runs these {} s several times. Each run takes {evaluations:.0e} \
+         evaluations of all forces, which is more than hours",
         number(duration)
     );
     SceneError::new("clock.duration", message)
@@ -68,9 +68,9 @@ pub(super) struct Trials<'a> {
     pub cut: bool,
     /// The fineness of the first.
     coarsest: f64,
-    /// How many were made.
+    /// The number of trials so far.
     pub count: u32,
-    /// How often forces were evaluated in all of them.
+    /// The number of times that forces were evaluated in all of them.
     pub evaluations: u64,
     /// The greatest distance and speed of bodies, from the last trial.
     sizes: (f64, f64),
@@ -202,10 +202,13 @@ impl<'a> Trials<'a> {
 
     /// The cost of the trials, in words.
     pub fn cost(&self) -> String {
-        format!("{} runs before this one, with {} evaluations of all forces, found that", self.count, self.evaluations)
+        format!(
+            "{} runs before this one, with {} evaluations of all forces, found these steps",
+            self.count, self.evaluations
+        )
     }
 
-    /// How far bodies go in m, and how fast in m/s; one, where nothing moves.
+    /// The distance that bodies go in m, and their speed in m/s. Both are one if all bodies rest.
     pub fn sizes(&self) -> (f64, f64) {
         let or_one = |size: f64| if size > 0.0 { size } else { 1.0 };
         (or_one(self.sizes.0), or_one(self.sizes.1))

@@ -55,15 +55,15 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let told = lost.map(|index| index.checked_sub(1).map_or(0.0, |before| growths[before].0));
     known.horizon = [horizon(&growths), told].into_iter().flatten().reduce(f64::min);
     plan.notes.push(format!(
-        "reference run: {}; a run that allows a hundred times that error differs by {} m and {} m/s",
+        "reference run: {}. A run that allows a hundred times that error differs by {} m and {} m/s",
         trials.words(&plan),
         rough(error.distance),
         rough(error.speed),
     ));
     plan.notes.push(match known.horizon {
         Some(horizon) => format!(
-            "chaos: a disturbance grows by a factor of {growth:.0e} within the run, so that rounding shows after about {} s: no \
-             run of any engine tells places beyond that",
+            "chaos: a disturbance grows by a factor of {growth:.0e} within the run, so that rounding shows after about {} s. \
+             No run of any engine tells places beyond that",
             number(horizon)
         ),
         None => format!("no chaos: a disturbance of the beginning grows by a factor of {} within the run", number(growth)),
@@ -72,16 +72,16 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
         // Stretches of whole ticks are alike in both runs.
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
         plan.warning = Some(
-            "some ticks had too many events to locate them one by one, and the compared runs are alike there: their \
-             error is not known; write a tick, and compare with a tenth of it"
+            "some ticks had too many events to locate them all. The compared runs are alike there, so their error is not \
+             known. Write a tick, and compare with a tenth of it"
                 .to_owned(),
         );
     } else if error.share > TELLS_NOTHING {
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
     } else if coarse.bounded && fine.bounded && error.distance < ALIKE * fine.farthest() {
         plan.warning = Some(format!(
-            "rounding of places {} m from the origin bounds the steps of bodies that go {} m: the two runs are alike, and their \
-             difference is no error; move the scene to the origin",
+            "rounding of places {} m from the origin bounds the steps of bodies that go {} m. The two runs are alike, and \
+             their difference is no error. Move the scene to the origin",
             number(fine.farthest()),
             number(distance)
         ));

@@ -52,7 +52,7 @@ struct Climb {
     wary: bool,
     /// The finest that is tried.
     finest: f64,
-    /// How much finer than the last trial the final run may be.
+    /// The greatest factor by which the final run is finer than the last trial.
     trusted: f64,
 }
 
@@ -176,8 +176,8 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDist
     let mut plan = trials.planned(fineness);
     let (distance, speed) = trials.sizes();
     plan.notes.push(format!(
-        "tolerance {}: {}; bodies go as far as {} m and are as fast as {} m/s, and the run is expected to be within {} m of \
-         the exact places and within {} m/s of the exact velocities",
+        "tolerance {}: {}. Bodies go as far as {} m and are as fast as {} m/s. The expected error of places is {} m, that of \
+         velocities {} m/s",
         number(tolerance),
         trials.words(&plan),
         number(distance),
@@ -190,12 +190,13 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDist
     plan
 }
 
-/// Why there are no smaller steps for bodies that come `farthest` metres from the origin and go `distance`.
+/// The reason for which steps cannot be smaller, if bodies come `farthest` metres from the origin and go `distance`.
 fn bounded(farthest: f64, distance: f64) -> String {
     if farthest > FAR * distance {
         let (farthest, distance) = (number(farthest), number(distance));
         format!(
-            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m; move the scene to the origin"
+            "rounding of places {farthest} m from the origin leaves no smaller steps for bodies that go {distance} m. Move \
+             the scene to the origin"
         )
     } else {
         "rounding leaves no smaller steps, and the motion magnifies it".to_owned()

@@ -58,7 +58,7 @@ pub struct Trajectory {
     extents: Vec<f64>,
     /// Its failure, if it failed before its end.
     pub failure: Option<Failure>,
-    /// How often forces were evaluated.
+    /// The number of times that forces were evaluated.
     pub evaluations: u64,
     /// Whether more happened in a tick than is located.
     pub overloaded: bool,
@@ -238,7 +238,7 @@ impl Trajectory {
         after.flat_map(|(_, poses)| poses.iter().map(|pose| (pose.position, pose.velocity)))
     }
 
-    /// How many moments were looked at after the beginning.
+    /// The number of moments that were looked at after the beginning.
     pub fn moments(&self) -> usize {
         self.moments.len().saturating_sub(1)
     }

@@ -21,7 +21,7 @@ pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 #[serde(deny_unknown_fields, rename = "")]
 #[schemars(rename = "Body")]
 pub struct BodyEntry {
-    /// The name; no other body, wall, joint or sensor has it.
+    /// The name. No other body, wall, joint or sensor has it.
     pub name: String,
     /// Its discs. Default: none, for a body with a `shape`.
     #[serde(default)]
@@ -29,11 +29,11 @@ pub struct BodyEntry {
     /// Its shape with sides, beside the discs if it has both. Default: none.
     #[serde(default)]
     pub shape: Option<OutlineShape>,
-    /// Its centre of mass at the start, in m; with `datum: Origin`, the origin of its atoms. Default: (0, 0), which
-    /// only bodies with `datum: Origin` may leave out.
+    /// Its centre of mass at the start, in m. With `datum: Origin` it is the origin of its atoms, and may be absent.
+    /// Default: (0, 0).
     #[serde(default)]
     pub at: Option<LengthPair>,
-    /// How far its atoms are turned about that point, in rad, counter-clockwise. Default: 0.
+    /// The turn of its atoms about that point, in rad, counter-clockwise. Default: 0.
     #[serde(default)]
     pub angle: Angle,
     /// The velocity of its centre of mass at the start, in m/s. Default: (0, 0).
@@ -48,13 +48,13 @@ pub struct BodyEntry {
     /// Whether it never moves. Default: `false`.
     #[serde(default)]
     pub fixed: bool,
-    /// Its motion, if no force is to move it. Default: it moves by forces.
+    /// Its motion, if no force is to move it. Without it forces move the body. Default: none.
     #[serde(default)]
     pub kinematic: Option<KinematicEntry>,
-    /// Whether it touches others; without, it still feels forces. Default: `true`.
+    /// Whether it touches other bodies and walls. If not, it still feels forces. Default: `true`.
     #[serde(default = "yes")]
     pub collides: bool,
-    /// The groups to which it belongs, names of your choice. Default: none.
+    /// The groups to which it belongs, with names of your choice. Default: none.
     #[serde(default)]
     pub groups: Vec<String>,
     /// The groups whose bodies it does not touch. Default: none.

@@ -21,7 +21,7 @@ use crate::world::{material, sections};
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read. A
 /// film reads its scene twice.
 pub const LARGEST_COUNT: u64 = 1_000_000;
-/// How often a place is tried for one body before the region counts as full.
+/// The number of times that a place is tried for one body before the region counts as full.
 const TRIES: usize = 20_000;
 /// Bodies that would take a smaller share of their region do not fill it.
 const SPARSE: f64 = 0.3;
@@ -41,29 +41,30 @@ const CELLS: usize = 512;
 pub struct FillEntry {
     /// The prefix of their names.
     pub name: String,
-    /// The atoms of each. Default: none; then it has a `shape`.
+    /// The atoms of each body. Without them it has a `shape`. Default: none.
     #[serde(default)]
     pub atoms: Option<AtomShape>,
-    /// The shape with sides of each. Default: none.
+    /// The shape with sides of each body. Default: none.
     #[serde(default)]
     pub shape: Option<OutlineShape>,
-    /// Makes each a disc of another radius, by the same seed: how radii are distributed, in place of `atoms` and `shape`. Default: all are equal.
+    /// The distribution of radii, in place of `atoms` and `shape`. Each body is then a disc of another radius, by the same
+    /// seed. Default: all are equal.
     #[serde(default)]
     pub radius: Option<Radii>,
     /// The name of their material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// How many, from 1 to 1 000 000 in all.
+    /// The number of bodies, from 1 to 1 000 000 in all.
     pub count: WholeNumber,
     /// Two opposite corners of a box, or the corners of a polygon in order, in m.
     pub within: Region,
-    /// How fast each moves at the start, in m/s. Default: 0.
+    /// The speed of each body at the start, in m/s. Default: 0.
     #[serde(default)]
     pub speed: Speed,
     /// The seed of chance. Default: 0.
     #[serde(default)]
     pub seed: WholeNumber,
-    /// How far those circles stay apart from each other and from other bodies at least, in m. Default: 0.
+    /// The least distance of those circles from each other and from other bodies, in m. Default: 0.
     #[serde(default)]
     pub gap: Length,
 }
@@ -84,10 +85,10 @@ pub struct Placed {
 /// Many bodies of a kind in a box or polygon, none touching another, by seeded chance. The bodies of `gas` are called `gas_0`,
 /// `gas_1` and so on.
 ///
-/// Each stands at a random place in the region, turned by a random angle, moving in a random direction. A circle about the centre
-/// of mass of each body holds all its atoms and shapes. These circles do not touch each other, other bodies, walls or the
-/// region's border. The same seed gives the same places on every machine. If radii are distributed, the largest are placed first.
-/// Names go by the order in which radii were drawn.
+/// Each stands at a random place in the region at a random angle, and moves in a random direction. A circle about the
+/// centre of mass of each body holds all its atoms and shapes. These circles do not touch each other, other bodies, walls
+/// or the region's border. The same seed gives the same places on every machine. If radii are distributed, the largest are
+/// placed first. Names go by the order in which radii were drawn.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 pub struct FillSection(pub Vec<FillEntry>);
 
@@ -161,9 +162,9 @@ impl Section for FillSection {
                     100.0 * share,
                 );
                 let narrow =
-                    if share < SPARSE { ". So little is hard to meet by chance: use a wider region" } else { "" };
+                    if share < SPARSE { ". Chance hardly meets so narrow a region: use a wider one" } else { "" };
                 let help = format!(
-                    "a larger `within`, a smaller `count` or smaller {smaller} would fit; chance fills about half the \
+                    "a larger `within`, a smaller `count` or smaller {smaller} would fit. Chance fills about half the \
                      area{narrow}"
                 );
                 report.error(&format!("[{index}].count"), message).help(help);

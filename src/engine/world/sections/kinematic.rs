@@ -7,15 +7,15 @@ use crate::scene::Diagnostics;
 use crate::scene::units::{Angle, LengthPair, SpeedPair, Spin, Time};
 use crate::world::kinematic::{Path, PathPoint};
 
-/// How a body moves that nothing pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
+/// The motion of a body that no force pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
 /// `kinematic: (path: [(time: 1, by: (2, 0)), (time: 2, by: (0, 0))], repeat: true)`.
 #[derive(Clone, Debug, Default, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields, rename = "", default)]
 #[schemars(rename = "Kinematic")]
 pub struct KinematicEntry {
-    /// The velocity at the start, in m/s; without a path, for ever. Default: (0, 0).
+    /// The velocity at the start, in m/s. Without a path it stays so. Default: (0, 0).
     pub velocity: SpeedPair,
-    /// The spin at the start, in rad/s; without a path, for ever. Default: 0.
+    /// The spin at the start, in rad/s. Without a path it stays so. Default: 0.
     pub spin: Spin,
     /// The points of its path. Default: none.
     pub path: Vec<PathEntry>,
@@ -33,10 +33,10 @@ pub struct PathEntry {
     /// The displacement from the start, in m. Default: (0, 0).
     #[serde(default)]
     pub by: LengthPair,
-    /// How far it is turned from its angle at the start, in rad. Default: 0.
+    /// Its turn from its angle at the start, in rad. Default: 0.
     #[serde(default)]
     pub turn: Angle,
-    /// Its velocity there, in m/s. Default: (0, 0), a stop.
+    /// Its velocity there, in m/s. With (0, 0) the body stops. Default: (0, 0).
     #[serde(default)]
     pub velocity: SpeedPair,
     /// Its spin there, in rad/s. Default: 0.

@@ -126,7 +126,7 @@ impl Region {
         self.corners.iter().copied().zip(self.corners.iter().copied().cycle().skip(1))
     }
 
-    /// How many corners it has.
+    /// The number of corners that it has.
     pub(super) fn corner_count(&self) -> usize {
         self.corners.len()
     }

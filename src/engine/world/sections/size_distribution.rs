@@ -14,7 +14,7 @@ use crate::scene::units::Length;
 /// Places and radii of a fill come from different streams of one seed.
 const STREAM: u64 = 1;
 
-/// How radii are distributed.
+/// The distribution of radii.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Radii {
@@ -26,13 +26,13 @@ pub enum Radii {
         mean: Length,
         /// Its standard deviation in m. Not negative.
         deviation: Length,
-        /// Smaller radii are drawn anew, in m. Default: 0.
+        /// The least radius in m. Chance draws smaller ones anew. Default: 0.
         #[serde(default)]
         least: Length,
-        /// Larger radii are drawn anew, in m. Default: none is too large.
+        /// The greatest radius in m. Chance draws larger ones anew. Default: none.
         most: Option<Length>,
     },
-    /// `Choice([0.01, 0.02])`: one of these radii in m, each as likely; one that stands twice is twice as likely.
+    /// `Choice([0.01, 0.02])`: one of these radii in m, each as likely. A radius that stands twice is twice as likely.
     Choice(Vec<Length>),
 }
 

@@ -19,24 +19,24 @@ use crate::world::{material, sections};
 pub struct WallEntry {
     /// The name, for sensors and messages.
     pub name: String,
-    /// Of a half-plane: seen from the open side, the point to the left, in m. Default: none, for a strip.
+    /// The point of a half-plane to the left, seen from the open side, in m. Default: none, for a strip.
     #[serde(default)]
     pub left: Option<LengthPair>,
-    /// Of a half-plane: seen from the open side, the point to the right, in m. Default: none, for a strip.
+    /// The point of a half-plane to the right, seen from the open side, in m. Default: none, for a strip.
     #[serde(default)]
     pub right: Option<LengthPair>,
-    /// Of a strip: the beginning of its middle line, in m. A strip is hit from both sides. Default: none, for a
+    /// The beginning of the middle line of a strip, in m. Bodies hit a strip from both sides. Default: none, for a
     /// half-plane.
     #[serde(default)]
     pub from: Option<LengthPair>,
-    /// Of a strip: the end of its middle line, in m. Default: none, for a half-plane.
+    /// The end of the middle line of a strip, in m. Default: none, for a half-plane.
     #[serde(default)]
     pub to: Option<LengthPair>,
-    /// Of a strip: its thickness, in m; ends are round. Default: 0.
+    /// The thickness of a strip, in m. Its ends are round. Default: 0.
     #[serde(default)]
     pub thickness: Option<Length>,
-    /// Of a strip: the sides from which it is hit, seen on the way from `from` to `to`. They are `Left`, `Right` or
-    /// `Both`. Default: `Both`.
+    /// The sides of a strip that bodies hit, seen on the way from `from` to `to`. They are `Left`, `Right` or `Both`.
+    /// Default: `Both`.
     #[serde(default)]
     pub sides: Option<Sides>,
     /// The points of a line, in m. It is one surface, open to the left of the way from the first point to the last. It
@@ -52,7 +52,7 @@ pub struct WallEntry {
     /// The name of its material. Default: `default`.
     #[serde(default)]
     pub material: Option<String>,
-    /// Of a half-plane: the velocity of its surface along the wall, in m/s: a belt. Default: (0, 0).
+    /// The velocity of the surface of a half-plane along the wall, in m/s. Such a wall is a belt. Default: (0, 0).
     #[serde(default)]
     pub surface_velocity: SpeedPair,
 }
@@ -88,7 +88,7 @@ impl JsonSchema for Heights {
                     "of": text("The height as a function of `x`, in m."),
                     "from": length,
                     "to": length,
-                    "pieces": { "type": ["number", "string"], "description": "How many pieces it has." },
+                    "pieces": { "type": ["number", "string"], "description": "The number of its pieces." },
                 },
                 "required": ["of", "from", "to", "pieces"],
                 "additionalProperties": false,

@@ -11,7 +11,7 @@ use jostle_frames::frame::Rgb;
 const HALF_WIDTH: f64 = 1.9;
 const OLD_SHARE: f64 = 0.25;
 
-/// How much of the ground the young end of a trail covers.
+/// The opacity of the young end of a trail.
 const COVER: f64 = 0.92;
 
 /// Points nearer than this to the one before, in pixels, are passed over.

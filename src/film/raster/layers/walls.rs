@@ -21,7 +21,7 @@ struct HalfPlane {
 }
 
 impl HalfPlane {
-    /// How many pixels `place` lies behind the line; negative on the open side.
+    /// The number of pixels that `place` lies behind the line; negative on the open side.
     fn depth(&self, place: DVec2) -> f64 {
         (self.point - place).dot(self.normal)
     }

@@ -58,7 +58,7 @@ pub struct Diagram {
     pub plot: Plot,
     /// The text beside the title.
     pub aside: String,
-    /// How its curves look.
+    /// The look of its curves.
     pub looks: Vec<Look>,
     /// Its points, from back to front.
     pub spots: Vec<Spot>,
@@ -68,7 +68,7 @@ pub struct Diagram {
     pub useless: (f64, String),
 }
 
-/// How much of the colour of letters a useless region has.
+/// The share of the colour of letters in a useless region.
 const SHADE: f32 = 0.045;
 
 /// Draws a diagram.

@@ -23,9 +23,9 @@ This page lists every section, entry and field of a scene. [scenes.md](scenes.md
 [methods.md](methods.md) how the engine computes them. [tour.md](tour.md) builds a scene in ten steps. `jostle schema` writes
 the same as JSON schema.
 
-A *quantity* is a bare number in the unit of the column `unit`, or a text with its unit: `0.3`, `\"30 cm\"`. Where a number may
-stand, an expression in quotes may: `\"2 * r + gap\"`. Where *names* are asked for, `*` stands for any letters: `\"gas_*\"`. A
-field without a default has to be there.
+A *quantity* is a bare number in the unit of the column `unit`, or a text with its unit: `0.3`, `\"30 cm\"`. A number
+may also be an expression in quotes: `\"2 * r + gap\"`. In *names* of bodies `*` stands for any letters: `\"gas_*\"`. A scene
+needs each field without a default.
 
 ";
 
@@ -195,7 +195,7 @@ impl<'a> Manual<'a> {
                 self.paragraph(&match arity {
                     Arity::List => format!("A list of any of {}.", names.join(", ")),
                     Arity::Words => {
-                        format!("A list of any of {}; without fields they need no brackets.", names.join(", "))
+                        format!("A list of any of {}. Without fields they need no brackets.", names.join(", "))
                     }
                     Arity::One => format!("One of {}.", names.join(", ")),
                     Arity::OneOrNone => format!("One of {}, or `None`.", names.join(", ")),

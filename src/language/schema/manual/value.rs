@@ -24,14 +24,14 @@ impl<'a> Manual<'a> {
         if let (Some(items), None) = (item("items"), about.get("x-value")) {
             let told = self.language.resolve(items).0.and_then(|name| self.places.get(name));
             if let Some(place) = told {
-                let list = format!("A list; each item is as [`{place}`](#{}).", anchor(place));
+                let list = format!("A list. Each item is as [`{place}`](#{}).", anchor(place));
                 return self.paragraph(&list);
             }
-            self.paragraph("A list; each item has:");
+            self.paragraph("A list. Each item has:");
             return self.value(&format!("{path}[..]"), items);
         }
         if let Some(values) = item("additionalProperties") {
-            self.paragraph("A map of names; each value has:");
+            self.paragraph("A map of names. Each value has:");
             return self.value(&format!("{path}[..]"), values);
         }
         let (value, unit) = self.cell(path, about);
@@ -155,7 +155,8 @@ impl<'a> Manual<'a> {
             if values.len() == 2 && values.iter().all(|value| *value == first) {
                 return (format!("`(a, b)`, each {first}"), unit);
             }
-            return (format!("`(..)` of {}", values.join(" and ")), unit);
+            let names: Vec<String> = (b'a'..).take(values.len()).map(|letter| char::from(letter).to_string()).collect();
+            return (format!("`({})`: {}", names.join(", "), values.join(", then ")), unit);
         }
         if about["const"].is_string() {
             return (code(&about["const"]), String::new());

@@ -104,7 +104,7 @@ fn passes(method: &str, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
         0.0,
         "rows depend on each other where bars are in line",
     );
-    // How near the end of a tick comes to the dead point.
+    // The distance of the end of a tick from the dead point.
     let quarter = std::f64::consts::FRAC_PI_2 / (spin * tick);
     let nearest = (quarter - quarter.round()).abs() * spin * tick;
     let bodies = simulation.bodies();

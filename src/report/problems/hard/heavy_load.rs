@@ -1,5 +1,5 @@
-//! Ratios of masses of up to a million across a joint. They are a light rope with a heavy load, a light bar with a
-//! heavy bob, and the reverse. SI units.
+//! Ratios of masses of up to a million across a joint. One case is a light rope with a heavy load. The others are a light bar
+//! with a heavy bob, and a heavy bar with a light bob. SI units.
 //!
 //! A bar of mass `m` swings as a pendulum, with a bob of mass `M` pinned to its end. Its rate is `w^2 = g/l (M + m/2)/(M + m/3)`.
 //! From 90 degrees it is at the bottom after `K(1/sqrt(2))/w`. There the pin bears `M (g + 2 w^2 l)`.

@@ -131,7 +131,7 @@ pub struct Reading {
 }
 
 impl Reading {
-    /// How it came out.
+    /// Its outcome.
     pub fn verdict(&self) -> Judgement {
         let kept = match self.threshold {
             Threshold::AtMost(bound) => self.value <= bound,

@@ -99,7 +99,7 @@ fn told(readings: &mut Readings, what: String, message: Option<String>, why: &'s
     readings.0.push(Reading { what, value, threshold, why, told: message });
 }
 
-/// Why a run above the limit is ended.
+/// The reason for which a run above the limit is ended.
 const ENDED: &str = "energy out of nowhere ends a run with a message that names body and time";
 
 fn run(_: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {

@@ -130,7 +130,7 @@ fn run(extent: Extent, readings: &mut Readings) -> Result<(), Box<dyn Error>> {
             };
             readings.0.push(Reading {
                 what: format!(
-                    "{name}, {tick}: energy above the start, of what goes round ({} of the critical tick, overlap {} m)",
+                    "{name}, {tick}: energy above the start, of the energy that changes form ({} of the critical tick, overlap {} m)",
                     rounded(z),
                     rounded(shown.overlap)
                 ),

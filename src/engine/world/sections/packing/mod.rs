@@ -26,8 +26,8 @@ pub const MOST_ATOMS: u64 = 1_000_000;
 pub struct PackingEntry {
     /// The prefix of their names.
     pub name: String,
-    /// The table: a path from the folder of the file with this entry, of comma-separated values. A name that ends in
-    /// `.gz` is decompressed.
+    /// The table: a path from the folder of the file with this entry, of comma-separated values. The reader decompresses a
+    /// file whose name ends in `.gz`.
     pub file: String,
     /// The name of their material. Default: `default`.
     #[serde(default)]

@@ -148,12 +148,12 @@ impl PackingTable {
         Self { rows: sorted, first, has_spin }
     }
 
-    /// How many atoms it holds.
+    /// The number of atoms that it holds.
     pub fn atom_count(&self) -> usize {
         self.rows.len()
     }
 
-    /// How many bodies they form.
+    /// The number of bodies that they form.
     pub fn body_count(&self) -> usize {
         self.first.len() - 1
     }
