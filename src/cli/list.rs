@@ -52,7 +52,7 @@ const SHORT_LAYERS: &str = "layers";
 const CHOICES: [(&str, &str); 2] = [("shapes", "Shape"), ("atoms", "Atoms")];
 /// The lists of channels: those of the whole scene, and those behind a name.
 const CHANNEL_LISTS: [&str; 2] = ["channels", "quantities"];
-/// Who brings the sections that are there before any plugin.
+/// The origin of the sections that are there before any plugin.
 pub(super) const READER: &str = "jostle::scene";
 
 /// One line of a list.

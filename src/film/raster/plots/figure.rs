@@ -16,7 +16,7 @@ pub(super) const LETTERS: f32 = 1.45;
 /// curve, in the smallest letters that can be read.
 pub const LEAST: (u32, u32) = (160, 95);
 
-/// Width and height in pixels of the smallest plot for letters as large as those beside a film of 1280 x 720.
+/// Width and height in pixels of the smallest plot with letters as large as beside a wide film.
 const ROOM: (f32, f32) = (240.0, 160.0);
 
 /// Draws plots below each other, in their final state.
