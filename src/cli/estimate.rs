@@ -16,7 +16,7 @@ use crate::simulation::{Overrides, Simulation};
 #[derive(Args, Clone, Copy, Debug, Default)]
 pub(super) struct EstimateFlags {
     /// Estimate the error of the whole run: make it again with finer steps, two to four times. Without this flag, the
-    /// estimate takes at most half a second or a thirtieth of the run. It may then cover only the beginning
+    /// estimate takes about a second, or a thirtieth of a long run. It may then cover only the beginning
     #[arg(long, conflicts_with = "no_estimate")]
     estimate: bool,
     /// Do not estimate the error of the run

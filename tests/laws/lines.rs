@@ -204,7 +204,7 @@ fn a_line_that_is_turned_around_is_noted() {
             .card()
             .notes
             .iter()
-            .any(|note| note.contains("all bodies that move by forces are behind `ground`: they enter it"))
+            .any(|note| note.contains("all bodies that move by forces are behind `ground`. They enter it"))
     };
     let ground = [DVec2::ZERO, DVec2::new(1.0, 0.2), DVec2::new(2.0, 0.0)];
     let [first, middle, last] = ground;

@@ -160,7 +160,7 @@ pub(super) const WORDS: &[Word] = &[
     word(
         "error",
         "the distance of the run from the exact solution, as the engine estimates it. `tick` comes from the same run with \
-         finer steps, which take 3 % of the work or half a second. With `--estimate` they take as long as they \
+         finer steps, which take about a second, or 3 % of the work of a long run. With `--estimate` they take as long as they \
          need, and with `--no-estimate` there are none. `rounding` comes from runs with wrong last bits (`--rounding`). `model` comes from a run with contacts four times as stiff (`--model`). In `--json` these are `discretisation`, \
          `rounding` and `model`. Under a `tolerance` and `Reference`, the runs that find the steps give the first. The \
          error of places is the greatest distance of any point of a body, in m. The error of velocities is the root of \

@@ -46,6 +46,7 @@ macro_rules! shapes {
         /// The discs a body is made of: one of the shapes.
         #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
+        #[schemars(rename = "Atoms")]
         pub enum AtomShape {
             $($(#[$about])* $name($fields),)*
         }

@@ -43,8 +43,8 @@ const FEWEST_MOMENTS: usize = 4;
 pub enum Effort {
     /// None: no estimate.
     None,
-    /// Three hundredths of the work of the run, or about a tenth of a second if that is more. Four times as much is
-    /// allowed if it suffices for the whole run.
+    /// Three hundredths of the work of the run, or about half a second if that is more. A second is allowed if it
+    /// suffices for the whole run.
     #[default]
     Little,
     /// All useful runs: with half and with a quarter of the tick, which show the order too.

@@ -9,10 +9,10 @@ use jostle_engine::tick::{Failure, State};
 
 /// The share of the run's work that an estimate may take by default.
 pub(super) const SHARE: f64 = 0.03;
-/// ... or this much, if that is more. It is about a tenth of a second...
-const FREE: f64 = 2e5;
-/// ... or four times as much, if that suffices for the whole run.
-const WHOLE: f64 = 8e5;
+/// ... or this much, if that is more. It is about half a second...
+const FREE: f64 = 1e6;
+/// ... or two and a half times as much, if that suffices for the whole run.
+const WHOLE: f64 = 2.5e6;
 
 /// The work of an evaluation for each atom, each row of the constraints, and each pair of neighbours.
 const PER_ATOM: f64 = 0.04;

@@ -124,6 +124,7 @@ macro_rules! list {
         /// round.
         #[derive(Clone, Debug, Deserialize, JsonSchema)]
         #[serde(deny_unknown_fields)]
+        #[schemars(rename = "Shape")]
         pub enum OutlineShape {
             $($(#[$about])* $name($fields),)*
             /// `Compound([Rectangle(width: 1, height: 0.2), Disc(at: (0.5, 0), radius: 0.1)])`: several shapes as one body.
