@@ -75,6 +75,8 @@ pub struct EstimatedError {
     pub chaotic: bool,
     /// The time in s until which the run was repeated, if not to its end. The rest is unknown.
     pub known_until: Option<f64>,
+    /// The time in s from which stiffer contacts lead elsewhere. The error of the model holds until then.
+    pub model_until: Option<f64>,
     /// Further notes on it.
     pub notes: Vec<String>,
 }

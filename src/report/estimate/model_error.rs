@@ -48,6 +48,8 @@ pub(super) fn estimate(
             "contacts four times as stiff lead elsewhere after t = {horizon:.3} s. The error of the model holds until then"
         ));
     }
+    found.model_until = growth.horizon;
+    estimate.horizon = [estimate.horizon, growth.horizon].into_iter().flatten().reduce(f64::min);
     (estimate.position.model, estimate.velocity.model) = (Some(LEFT * growth.distance), Some(LEFT * growth.speed));
     Ok(())
 }

@@ -53,7 +53,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// All causes, in such an order that the first explains later ones.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 19] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -68,6 +68,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 18] = [
     overlap::deep,
     ticks::brief_contact,
     ticks::far_travel_unseen,
+    trajectory_error::soft_contacts,
     trajectory_error::chaos,
     trajectory_error::inexact,
     trajectory_error::not_run_again,

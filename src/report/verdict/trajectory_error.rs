@@ -12,9 +12,12 @@ const INEXACT: f64 = 1e-2;
 /// The run does not reach the tolerance that its user asked for.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     let missed = evidence.card.missed.clone().filter(|_| !evidence.card.stands)?;
-    // If the comparison of runs gives no error, no digit is known.
-    let known = evidence.card.error.is_none_or(|error| error.position.discretisation.is_some());
-    let part = if known { VerdictPart::LastDigits } else { VerdictPart::Places };
+    let part = match evidence.card.error {
+        // If the comparison of runs gives no error, no digit is known.
+        Some(error) if error.position.discretisation.is_none() => VerdictPart::Places,
+        Some(error) => error.horizon.map_or(VerdictPart::LastDigits, VerdictPart::PlacesAfter),
+        None => VerdictPart::LastDigits,
+    };
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
 }
 
@@ -73,6 +76,16 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         what: why,
         remedy: Some(format!("`--tick {}`{whether}{tolerance}", number(tick))),
     })
+}
+
+/// Stiffer contacts lead elsewhere.
+pub(super) fn soft_contacts(evidence: &Evidence) -> Option<Cause> {
+    let until = evidence.world.get_resource::<EstimatedError>()?.model_until?;
+    if evidence.card.error?.horizon? < until {
+        return None;
+    }
+    let what = "contacts four times as stiff lead elsewhere from then on".to_owned();
+    Some(Cause { trust: Trust::ButNot(VerdictPart::PlacesAfter(until)), what, remedy: None })
 }
 
 /// Only the beginning of the run was repeated with finer steps.

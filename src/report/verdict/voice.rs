@@ -47,9 +47,12 @@ fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> 
         });
         let bodies = state.bodies();
         let moved = (0..bodies.len()).filter(|body| bodies.dynamic[*body]);
-        let (count, resting) =
+        let (count, mut resting) =
             moved.fold((0, 0), |(count, resting), body| (count + 1, resting + usize::from(bodies.is_asleep(body))));
-        if until.is_some() && count > 1 && !doubted(&VerdictPart::Meetings) {
+        // Of bodies that sink into each other, neither statistics nor rest means anything for hard ones.
+        if doubted(&VerdictPart::Model) {
+            resting = 0;
+        } else if until.is_some() && count > 1 && !doubted(&VerdictPart::Meetings) {
             trusted.push("statistics".to_owned());
         }
         match resting {

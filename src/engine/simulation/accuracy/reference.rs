@@ -41,7 +41,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let beside = trials.run(COARSE, "a run that begins beside it", |simulation| {
         disturb(simulation, BESIDE * distance);
     })?;
-    let error = coarse.apart(&fine);
+    let (error, parted) = coarse.apart_until(&fine, TELLS_NOTHING * distance);
     let mut plan = trials.planned(FINE);
     let growths: Vec<(f64, f64)> = coarse.differences(&beside).map(|(t, far)| (t, far / (BESIDE * distance))).collect();
     let growth = growths.iter().fold(0.0, |most, (_, growth)| growth.max(most));
@@ -53,7 +53,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let lost =
         growths.iter().position(|(_, growth)| growth * f64::EPSILON * fine.farthest() > TELLS_NOTHING * distance);
     let told = lost.map(|index| index.checked_sub(1).map_or(0.0, |before| growths[before].0));
-    known.horizon = [horizon(&growths), told].into_iter().flatten().reduce(f64::min);
+    known.horizon = [horizon(&growths), told, parted].into_iter().flatten().reduce(f64::min);
     plan.notes.push(format!(
         "reference run: {}. A run that allows a hundred times that error differs by {} m and {} m/s",
         trials.words(&plan),
@@ -76,7 +76,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
              known. Write a tick, and compare with a tenth of it"
                 .to_owned(),
         );
-    } else if error.share > TELLS_NOTHING {
+    } else if parted.is_none() && error.share > TELLS_NOTHING {
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
     } else if coarse.bounded && fine.bounded && error.distance < ALIKE * fine.farthest() {
         plan.warning = Some(format!(

@@ -6,6 +6,7 @@
 //! the whole run, not of a step. The growth of the error of a step in a scene is measured, not guessed.
 
 use super::fineness::{Ladder, Trials};
+use super::reference::TELLS_NOTHING;
 use super::trajectory::{Trajectory, TrajectoryDistance};
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
@@ -221,6 +222,7 @@ fn missed(
 ) -> Plan {
     let mut plan = trials.planned(ends.fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
+    let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
     let why = match lost {
         _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
         _ if trials.evaluations > MOST_EVALUATIONS => {
@@ -230,7 +232,6 @@ fn missed(
             "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
         }
         Some(time) => {
-            let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
             let why = match ends.finest {
                 true if magnified => ": the motion magnifies errors of the finest steps, as chaos does",
                 true => ": the engine takes no finer steps",
@@ -242,7 +243,10 @@ fn missed(
     };
     plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
     plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
-    let mut known = estimate(error);
+    // Where the motion magnifies errors, or has lost all digits, finer steps do not make them smaller in proportion.
+    let (apart, horizon) = coarse.apart_until(fine, TELLS_NOTHING * trials.sizes().0);
+    let mut known = estimate(if magnified || horizon.is_some() { apart } else { error });
+    known.horizon = horizon;
     known.position.rounding = Some(f64::EPSILON * fine.farthest());
     plan.error = Some(known);
     plan

@@ -304,6 +304,15 @@ impl Trajectory {
         if apart.share.is_finite() && apart.distance.is_finite() && apart.speed.is_finite() { apart } else { infinite }
     }
 
+    /// The distance of another run until both are more than `distance` metres apart, and the last moment in s before that. `None`: they
+    /// stay nearer.
+    pub fn apart_until(&self, other: &Self, distance: f64) -> (TrajectoryDistance, Option<f64>) {
+        let Some(parting) = self.parts(other, distance) else { return (self.apart(other), None) };
+        let before = self.differences(other).map(|(time, _)| time).take_while(|time| *time < parting);
+        let last = before.last().unwrap_or_default();
+        (self.part(last, 1).apart(&other.part(last, 1)), Some(last))
+    }
+
     /// The first moment in s at which another run is farther away than `distance` metres.
     pub fn parts(&self, other: &Self, distance: f64) -> Option<f64> {
         self.differences(other).find(|(_, apart)| *apart > distance).map(|(time, _)| time)
