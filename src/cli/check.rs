@@ -22,7 +22,7 @@ pub(super) struct Check {
     /// Scene files, or example:NAME for a scene that comes with the program
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<String>,
-    /// Also run each scene and check what it expects
+    /// Also run each scene and check its expectations
     #[arg(long)]
     run: bool,
     #[command(flatten)]

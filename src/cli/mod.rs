@@ -77,9 +77,9 @@ Examples:
   jostle run example:projectile -o channels.csv          numbers instead of pictures
   jostle plot example:bounce --channels elastic.position.y  a figure of a sensor's channel
   jostle check my_scene.ron                              read it and report its mistakes
-  jostle test scenes/                                    do all scenes of a folder do what they expect?
+  jostle test scenes/                                    do all scenes of a folder meet their expectations?
   jostle sweep my_scene.ron --vary mass=1..5 -o out/     a table and pictures of several values
-  jostle measure my_scene.ron                            which method and tick reach which error, and at what cost
+  jostle measure my_scene.ron                            the error and the cost of each method and tick
   jostle list                                            the scenes that come with the program
   jostle new scene my_scene                              a scene to begin with
   jostle schema --manual | less                          every section and field that a scene may have
@@ -116,7 +116,7 @@ enum Command {
     Plot(plot::PlotCommand),
     /// Read scenes and report their mistakes; with --run also check their expectations
     Check(check::Check),
-    /// Run all scenes of a folder, several at once, and check what they expect
+    /// Run all scenes of a folder, several at once, and check their expectations
     Test(test::Test),
     /// Run a scene with many values of its parameters, and write a table, a contact sheet and films
     Sweep(sweep::Sweep),

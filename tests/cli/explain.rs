@@ -89,8 +89,8 @@ fn names_and_words_are_explained() {
         ),
         ("datum", &["`bodies.datum` is a field of the section `bodies`", "default: "]),
         ("anchor", &["anchor_a: ", "anchor_b: ", "`joints: Revolute`", "default: "]),
-        ("largest share", &["how deep two bodies, or a body and a wall, were in each other at worst"]),
-        ("overlap", &["`Overlap` is an entry of `sensors`", "how deep two bodies, or a body and a wall"]),
+        ("largest share", &["the greatest depth of two bodies, or of a body and a wall, in each other"]),
+        ("overlap", &["`Overlap` is an entry of `sensors`", "the greatest depth of two bodies, or of a body"]),
         ("restitution", &["materials", "joints"]),
         ("Gear", &["`Gear` is a choice of `bodies.shape`", "\n  teeth: "]),
     ] {

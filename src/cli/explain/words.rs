@@ -102,8 +102,8 @@ pub(super) const WORDS: &[Word] = &[
     ),
     word(
         "largest overlap, overlap, largest share",
-        "how deep two bodies, or a body and a wall, were in each other at worst, in m and as a share of the smaller radius. Another \
-         pair may have a greater share: then that stands in `largest share`. \
+        "the greatest depth of two bodies, or of a body and a wall, in each other. The card gives it in m, and as a share \
+         of the smaller radius. Another pair may have a greater share: then that stands in `largest share`. \
          Contacts are springs, so some overlap carries the load. A higher `stiffness` makes it smaller, and asks for \
          a shorter tick.",
     ),

@@ -103,7 +103,7 @@ pub(super) fn text(measured: &Measured, run: &str) -> String {
             ]
         }),
     );
-    text.push_str("\nThe end of the ladder of ticks:\n");
+    text.push_str("\nThe end of the sequence of ticks:\n");
     let ends = measured.settings.ends.iter().map(|(course, why)| vec![course.method.to_owned(), why.clone()]);
     let ends = aligned(&["method", ""], ends);
     text.push_str(ends.split_once('\n').map_or("", |(_, rest)| rest));

@@ -349,7 +349,7 @@ fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let state = world.resource::<State>();
     let is_crowd = state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD;
     let (in_contact, digits, contact) = if is_crowd {
-        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of a crowd. A shorter `--tick` \
+        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of many bodies. A shorter `--tick` \
         foretells paths for longer";
         (TICKS_PER_CONTACT_IN_A_CROWD, &DIGITS_IN_A_CROWD[..], why)
     } else {

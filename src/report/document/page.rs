@@ -59,7 +59,7 @@ const HOW: &str = "Errors are the greatest at the samples of a problem, against 
 place of an event in a tick matters, they are the greatest of three such places. Times are the least of three to nine runs that do nothing else, on one core. `located`: the engine finds events inside ticks. `Auto`: the choice of the engine. No run has more than a million ticks, or 30 000 with `--quick`. Finer ticks are absent if the error is down to rounding, or to the uncertainty of the answer. They are also absent if other settings have this error for a 64th of the evaluations.";
 const HARD: &str = "Scenes that break engines, with the measured value and the threshold that physics or numerics sets. \
 *Told*: the value is beyond its threshold, but the engine ended the run with a message, or warned of it. *FAILED*: the value is beyond it, and the engine gives no message.";
-const GRADES: &str = "The best grade of each method at any tick of the ladder. Bronze is an error of 1e-2, silver 1e-4, gold \
+const GRADES: &str = "The best grade of each method at any tick of the sequence. Bronze is an error of 1e-2, silver 1e-4, gold \
 1e-8. *Reference* is the effect of rounding at the tick, or the uncertainty of the answer itself. A dash: none of these, or the method does not run.";
 
 /// The page. `picture` draws the diagram of a sheet.

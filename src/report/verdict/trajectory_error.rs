@@ -55,7 +55,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     let unseen =
         world.resource::<State>().contact_law().is_some() && !card.located && card.largest_overlap.meters > 0.0;
     let why = if unseen {
-        format!("contacts begin and end inside ticks, and {} sees them only at the ends", card.method)
+        format!("contacts begin and end inside ticks. {} sees them only at the ends", card.method)
     } else {
         format!("the tick of {} s is too long for the motion", number(card.tick))
     };

@@ -58,6 +58,7 @@ fn trusted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> Vec<String> 
         match resting {
             0 => (),
             all if all == count => trusted.push("that all bodies rest".to_owned()),
+            1 => trusted.push(format!("that 1 of {count} bodies rests")),
             some => trusted.push(format!("that {some} of {count} bodies rest")),
         }
     }

@@ -1,5 +1,5 @@
-//! The climb of the ladder: every course has ticks from coarse to fine. The cheapest tick of all courses is next. It
-//! ends when errors reach the floor of the reference, or time is up.
+//! The order of runs in a work-precision series: every course has ticks from coarse to fine. The cheapest tick of all courses is next. The
+//! series ends when errors reach the floor of the reference, or time is up.
 
 use super::{Budget, MethodChoice, Setting, SettingOutcome, USELESS};
 use jostle_language::numbers::number;
@@ -31,7 +31,7 @@ impl<I: Iterator<Item = f64>> From<I> for Rungs<I> {
     }
 }
 
-/// The object that runs on the ladder.
+/// The object that runs in the series.
 pub(crate) trait Subject {
     /// Why it cannot go on.
     type Wrong;
@@ -51,7 +51,7 @@ pub(crate) struct Rules {
     pub leaves_behind: bool,
 }
 
-/// A course on the ladder.
+/// A course of the series.
 struct Climber<I: Iterator<Item = f64>> {
     course: MethodChoice,
     ticks: std::iter::Peekable<I>,
@@ -156,7 +156,7 @@ impl<I: Iterator<Item = f64>> Climber<I> {
     /// The reason for which it should go no further.
     fn reason_to_end<S: Subject>(&mut self, subject: &S, rules: &Rules, budget: &Budget) -> Option<String> {
         let Some(next) = self.ticks.peek().copied() else {
-            return Some("its ladder has no finer ticks".to_owned());
+            return Some("its sequence has no finer ticks".to_owned());
         };
         let last = self.settings.last()?;
         let error = match &last.outcome {

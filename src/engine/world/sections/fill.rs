@@ -155,9 +155,10 @@ impl Section for FillSection {
                 let area = std::f64::consts::PI * entry.sum_over_radii(square);
                 let share = area / entry.within.area();
                 let message = format!(
-                    "only {} of {} bodies find room in the {} {apart}: all would take {:.0} % of its area",
+                    "only {} of {} bodies {} room in the {} {apart}. All would take {:.0} % of its area",
                     placed.len(),
                     entry.count.0,
+                    if placed.len() == 1 { "finds" } else { "find" },
                     entry.within.noun(),
                     100.0 * share,
                 );

@@ -267,7 +267,7 @@ impl WallEntry {
         for (field, point) in fields.into_iter().zip(given) {
             if point.is_none() {
                 complete = false;
-                let help = "a half-plane has `left` and `right`, seen from its open side; a strip has `from` and `to`, and perhaps `thickness`; a line has `line` or `heights`";
+                let help = "a half-plane has `left` and `right`, seen from its open side. A strip has `from` and `to`, and perhaps `thickness`. A line has `line` or `heights`";
                 report.missing(field, help);
             }
         }
