@@ -1,4 +1,4 @@
-//! The error of results: the error card, estimates, ladders of ticks, and problems with known answers.
+//! The error of results: the error card, estimates, work-precision series, and problems with known answers.
 
 mod advice;
 pub mod bench;

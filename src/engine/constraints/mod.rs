@@ -1,14 +1,14 @@
 //! Constraints: rows of linear equations between bodies, and the one place that solves them.
 //!
-//! | file | what it solves |
+//! | file | task |
 //! |---|---|
-//! | `rows.rs` | held relative accelerations and velocities, exactly, for methods with stages |
-//! | `redundant.rs` | which forces are taken where rows depend on each other |
-//! | `solver.rs` | the same for joints, by sparse factors (`block_cholesky.rs`) |
-//! | `borders.rs` | held contacts beside those factors |
-//! | `projection.rs` | places and velocities brought back onto what joints hold |
-//! | `rest_solver/` | which bounded forces bring an island to rest within a tick, for methods from tick to tick |
-//! | `islands.rs` | which links act on each other |
+//! | `rows.rs` | solves held relative accelerations and velocities, exactly, for methods with stages |
+//! | `redundant.rs` | chooses the forces if rows depend on each other |
+//! | `solver.rs` | solves the same for joints, by sparse factors (`block_cholesky.rs`) |
+//! | `borders.rs` | solves held contacts beside those factors |
+//! | `projection.rs` | brings places and velocities back onto the constraints of joints |
+//! | `rest_solver/` | finds bounded forces that bring an island to rest within a tick, for methods from tick to tick |
+//! | `islands.rs` | groups the links that act on each other |
 //!
 //! Models give rows in stage Forces ([`Rows::add`]). The engine solves all of them together in stage Constraints. Each
 //! model takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).

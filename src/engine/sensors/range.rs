@@ -1,5 +1,5 @@
-//! `Range(name: "eye", of: "car", at: (0.2, 0), angle: 0)`: the distance along a ray from a place of a body to what it meets
-//! first.
+//! `Range(name: "eye", of: "car", at: (0.2, 0), angle: 0)`: ray casting from a place of a body, the distance to the first
+//! surface on the ray.
 //!
 //! The ray begins at a place of the body and turns with it. It meets discs, shapes and walls, except those of its own body and
 //! those that touch nothing. It meets half-planes, lines, and strips with one side from their open side, at their surface. The

@@ -32,9 +32,9 @@ const QUANTITIES: &[&str] = &["repose", "repose.left", "repose.right"];
 const FEWEST: usize = 3;
 
 /// The angle of repose of a heap in rad. `heap.repose.left` and `heap.repose.right` are those of its two flanks,
-/// `heap.repose` is their mean. The heap is cut into upright columns. In each of them the highest point of a body is a
-/// point of the free surface. Least squares fit a straight line to the points of a flank. An angle is positive if the flank
-/// rises to the summit. A flank with fewer than three points is NaN, and the mean is then that of the other flank.
+/// `heap.repose` is their mean. The sensor cuts the heap into upright columns. In each of them the highest point of a body
+/// is a point of the free surface. Least squares fit a straight line to the points of a flank. An angle is positive if the
+/// flank rises to the summit. A flank with fewer than three points is NaN, and the mean is then that of the other flank.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Repose {

@@ -1,4 +1,4 @@
-//! The guard against created energy.
+//! The guard against created energy: a check of the energy balance (Belytschko, Liu and Moran 2000, section 6.2).
 //!
 //! The created energy is `kinetic + potential + elastic + losses - work - start`, the residual of the ledger. The input has three
 //! parts: initial kinetic and elastic energy, energy released by fields, and all positive work of drives. Near the critical tick

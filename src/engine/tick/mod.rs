@@ -1,16 +1,16 @@
 //! The stages of a tick, and how state, models and systems of users work together in them.
 //!
-//! | schedule | stage | what happens |
+//! | schedule | stage | action |
 //! |---|---|---|
 //! | [`SimTick`] | [`Stage::Begin`] | plugins look at the state and change it: spawn, despawn, steer |
 //! | | [`Stage::Integrate`] | the integrator advances the state by `dt`; it runs [`Modes`] and [`Evaluate`] as often as its method needs |
 //! | | [`Stage::Observe`] | expectations and guards look at the new state |
 //! | [`Modes`] | | models choose the modes that stay frozen during the step |
-//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | bounding boxes are checked against where the bodies stand now, candidate pairs are found |
+//! | [`Evaluate`] | [`EvaluateStage::Bounds`] | the search checks bounding boxes against the current positions of bodies, and finds candidate pairs |
 //! | | [`EvaluateStage::Systems`] | systems of users add to `Force` and `Torque` |
 //! | | [`EvaluateStage::Forces`] | the models of the scene add their forces in order, contact laws last |
-//! | | [`EvaluateStage::Constraints`] | what models hold exactly is solved for, all rows at once |
-//! | | [`EvaluateStage::Settle`] | what depends on all forces |
+//! | | [`EvaluateStage::Constraints`] | the engine solves the constraints of models, all rows at once |
+//! | | [`EvaluateStage::Settle`] | models do the work that depends on all forces |
 //!
 //! **State and models.** [`State`] is the one resource that all stages work on. A [`Model`] is any active part of a
 //! scene. It is added with [`TickAppExt::add_model`], and a scene may have many of a kind. The stages of [`Evaluate`]

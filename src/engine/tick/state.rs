@@ -132,7 +132,7 @@ impl State {
         });
     }
 
-    /// Stage Settle: what depends on all forces.
+    /// Stage Settle: the work that depends on all forces.
     pub(super) fn settle(&mut self) {
         self.turn_to(TickPart::Settle);
         each!(self, settle, model => model.settle(self));

@@ -2,9 +2,9 @@
 //!
 //! Velocity Verlet moves a body under its weight alone along the exact parabola. Its position `k` ticks of `dt` seconds
 //! after `(x, v)` is `x + v k dt + g (k dt)²/2`, and its velocity is `v + g k dt`. The only error is rounding, because
-//! the method is exact for constant accelerations. So such a body is not moved tick by tick. Its state is computed from
-//! these formulas on demand. Candidate pairs show which bodies may have come near. A body that touches another is
-//! *bound*: it is moved tick by tick until it flies again.
+//! the method is exact for constant accelerations. So the integrator does not move such a body tick by tick. These
+//! formulas give its state on demand. Candidate pairs show the bodies that may have come near. A body that touches
+//! another is *bound*: the integrator moves it tick by tick until it flies again.
 //!
 //! [`Bodies::land`] fills in all positions for a reader, and the flights continue from their beginnings. So reading
 //! changes nothing. Bodies are lone discs, all of them dynamic. The models of a scene declare whether they support

@@ -1,4 +1,5 @@
-//! Films of true colours: frames are drawn and packed in groups, several at once, and written in order.
+//! A fork-join pipeline for films of true colours. Threads draw and pack a group of frames, then one writes them in
+//! order.
 
 use std::borrow::Cow;
 use std::io;

@@ -1,4 +1,5 @@
-//! From text to values, comments and line breaks. The text has passed the walk before and has no misplaced brackets.
+//! A recursive-descent parser (Aho, Sethi and Ullman 1986, section 2.4) of values, comments and line breaks. The lexer has
+//! passed the text before, so it has no misplaced brackets.
 
 use crate::lexer::text_prefix;
 

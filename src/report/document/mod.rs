@@ -1,5 +1,5 @@
-//! The report of speed against error. Each method runs problems with known answers at a ladder of ticks, and hard
-//! cases.
+//! The report of speed against error, by work-precision series. Each method runs problems with known answers at a
+//! sequence of ticks, and hard cases.
 //!
 //! Errors and times come from separate runs. Errors come first, on all cores. Then come times, one after the other
 //! without other work. The error is the greatest at the samples of a [`Problem`], against its exact answer and in its
@@ -33,7 +33,7 @@ use jostle_engine::integrate::ClockSection;
 use jostle_film::raster::Diagram;
 use subject::Asked;
 
-/// Ticks of the ladder over that of the problem.
+/// Ticks of the sequence over that of the problem.
 const LADDER: [f64; 8] = [8.0, 4.0, 2.0, 1.0, 0.5, 0.25, 0.125, 0.0625];
 const QUICK_LADDER: [f64; 3] = [4.0, 1.0, 0.25];
 /// Methods of a quick report.

@@ -1,4 +1,4 @@
-//! A problem on the ladder: the comparison of a run with its exact answer.
+//! A problem in a work-precision series: the comparison of a run with its exact answer.
 
 use std::convert::Infallible;
 

@@ -1,4 +1,5 @@
-//! Twins: finer runs of the same scene that share no step with the first run.
+//! Finer runs of the same scene, for Richardson extrapolation. A *twin* is a finer run that shares no step with the
+//! first run.
 //!
 //! Two runs differ by the error of the coarser one, unless their errors are equal. If motion is smooth, one twin with
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may

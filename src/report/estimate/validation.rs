@@ -1,5 +1,5 @@
-//! Estimates against reference solutions: problems are run, their errors estimated, and compared with a run of far
-//! smaller error.
+//! Validation of Richardson extrapolation against reference solutions. Each problem runs with an
+//! estimate of its error, and a run of far smaller error gives the true one.
 
 use crate::SimulationExt;
 use std::error::Error;

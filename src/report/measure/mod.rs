@@ -1,6 +1,6 @@
 //! Measurement of a scene: the cost and error of a run, method by method and tick by tick.
 //!
-//! A run of far smaller error is the reference (`reference.rs`). Every method climbs a ladder of ticks from coarse to
+//! A run of far smaller error is the reference (`reference.rs`). Every method runs a sequence of ticks from coarse to
 //! fine (`report/work_precision`). `scene.rs` chooses the ticks and compares. `refine.rs` tries ticks between the advised ones
 //! and the next coarser.
 

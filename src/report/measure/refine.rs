@@ -1,4 +1,4 @@
-//! Refinement between two ticks of a ladder with steps of two. The cheapest setting that is exact enough may be nearly
+//! Refinement between two ticks of a sequence with steps of two. The cheapest setting that is exact enough may be nearly
 //! twice as fine as needed.
 
 use super::scene::Compared;

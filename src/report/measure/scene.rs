@@ -1,4 +1,4 @@
-//! A scene on the ladder: its properties before any run, its ticks, and the comparison with the reference.
+//! A scene in a work-precision series: its properties before any run, its ticks, and the comparison with the reference.
 
 use crate::SimulationExt;
 use std::f64::consts::PI;
@@ -13,7 +13,7 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// The ladder begins at this multiple of the critical tick, if there is one. Longer ticks are expected to fail. If they
+/// The sequence of ticks begins at this multiple of the critical tick, if there is one. Longer ticks are expected to fail. If they
 /// do not, because contacts are brief or their forces hardly change, longer ones are tried.
 const BEYOND_CRITICAL: f64 = 2.0;
 /// The replacement for the limit of methods that have none, or are never stable without losses.
@@ -39,7 +39,7 @@ pub(super) struct Scene {
     pub duration: f64,
     /// The fastest frequency of contacts and springs in rad/s, if there are any.
     pub fastest: Option<f64>,
-    /// Ticks of the coarsest ladder that runs have in common.
+    /// Ticks of the coarsest sequence that runs have in common.
     pub moments: u64,
     /// Moments at which runs are compared, as far as they have them. Each of the others has a power of two of them, so
     /// that no swing looks like rest.

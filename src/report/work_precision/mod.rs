@@ -1,8 +1,8 @@
-//! The work-precision ladder: methods with ticks from coarse to fine, and the cost and error of each. `jostle measure`
-//! climbs it with a scene and a reference run (`report/measure`). `jostle report` climbs it with problems of known
+//! The work-precision series: methods with ticks from coarse to fine, and the cost and error of each. `jostle measure`
+//! makes it with a scene and a reference run (`report/measure`). `jostle report` makes it with problems of known
 //! answers (`report/document`).
 //!
-//! `climb.rs` climbs it and decides the end. `timing.rs` times the settings in separate runs. `advice.rs` finds the
+//! `climb.rs` chooses the next run and decides the end. `timing.rs` times the settings in separate runs. `advice.rs` finds the
 //! settings that no other dominates, and the cheapest for a wanted error. `diagram.rs` draws it.
 
 mod choice;

@@ -1,6 +1,6 @@
-//! Contacts with walls and hulls follow the motion of their sides.
+//! Conservative advancement (Mirtich 1996) of contacts with walls and hulls: a pair waits as long as its gap cannot close.
 //!
-//! A pair that does not touch is evaluated again when both sides can have closed the gap. Then its separating line
+//! The engine evaluates a separate pair again when both sides can have closed the gap. Then its separating line
 //! ([`super::remembered`]) mostly dismisses it, and gives the current distance.
 
 use super::apply::{Sink, approach};

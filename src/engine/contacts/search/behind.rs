@@ -1,5 +1,5 @@
-//! Walls with all bodies behind them, whose points may be in the wrong order. They are noted once, before the first
-//! tick.
+//! Signed distances before the first tick find walls with all bodies behind them. The points of such a wall may be in the
+//! wrong order, so the card notes it.
 
 use bevy_ecs::prelude::*;
 

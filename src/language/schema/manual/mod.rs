@@ -157,7 +157,7 @@ impl<'a> Manual<'a> {
     }
 
     fn contents(&mut self) {
-        self.line("| section | what it is |");
+        self.line("| section | meaning |");
         self.line("|---|---|");
         for section in self.language.sections.iter().chain([&self.language.repeat]) {
             let meaning = self.meaning(section);

@@ -31,7 +31,7 @@ const RADIUS: f64 = 0.03;
 const OMEGA: f64 = 10.0;
 const START: (f64, f64) = (0.1, 0.5);
 
-/// The body in equilibrium: the floor bears 10 N twice, the wall 10 N, and it turns by a hair.
+/// The body in equilibrium: the floor bears 10 N twice, the wall 10 N, and it turns slightly.
 pub fn clamped(method: &str, tick: f64, ticks: u64) -> String {
     let (sunk, pressed) = (1e-4, 2.5e-4);
     let up = -0.1 + RADIUS - sunk;
