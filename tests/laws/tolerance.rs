@@ -228,6 +228,39 @@ fn the_finest_tolerances_state_an_error_that_it_has() {
     }
 }
 
+/// Two swings of a double pendulum part exponentially: no steps keep to a tolerance for sixty seconds. The card says until when its error
+/// holds, and a run with another tolerance keeps to it until then. Both may err by what is stated: a factor of two. Afterwards they
+/// differ by more, so the time is needed.
+#[test]
+fn the_error_of_a_chaotic_run_holds_until_the_stated_time() {
+    let source = Source::read("scenes/double_pendulum.ron".as_ref()).unwrap();
+    let with = |tolerance: f64| {
+        let (tolerance, duration) = (Some(tolerance), Some(60.0));
+        let overrides = Overrides { tolerance, duration, ..Overrides::default() };
+        Simulation::load_with(&source, &overrides, |_| {}).unwrap()
+    };
+    let (mut run, mut other) = (with(1e-6), with(1e-10));
+    let (mut before, mut after) = (0.0_f64, 0.0_f64);
+    let horizon = run.card().error.and_then(|error| error.horizon).expect("chaos");
+    for tick in 1..=run.ticks() {
+        run.run_to_tick(tick).unwrap();
+        other.run_to_tick(tick).unwrap();
+        let time = run.clock().time();
+        assert_eq!(time, other.clock().time());
+        let places = run.bodies().position.iter().zip(&other.bodies().position);
+        let apart = places.map(|(a, b)| a.distance(*b)).fold(0.0, f64::max);
+        let greatest = if time <= horizon { &mut before } else { &mut after };
+        *greatest = greatest.max(apart);
+    }
+    let card = run.card();
+    let stated = card.error.and_then(|error| error.position.discretisation).expect("it is known until then");
+    assert!(
+        (5.0..55.0).contains(&horizon) && before <= 2.0 * stated && after > 2.0 * stated,
+        "{before} {after} {stated}"
+    );
+    assert!(card.verdict.contains("Do not trust places after about t = "), "{}", card.verdict);
+}
+
 #[test]
 fn a_reference_run_states_an_error_that_it_has() {
     for problem in &problems().collect::<Vec<_>>() {

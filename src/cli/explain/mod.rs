@@ -2,8 +2,8 @@
 
 mod channel;
 mod flag;
+mod language_parts;
 mod name;
-mod parts;
 mod scene;
 mod synonyms;
 mod words;

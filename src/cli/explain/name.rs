@@ -3,7 +3,7 @@
 use bevy_app::App;
 
 use super::words::{WORDS, Word};
-use super::{channel, flag, parts, synonyms};
+use super::{channel, flag, language_parts, synonyms};
 use crate::cli::Exit;
 use crate::cli::list::READER;
 use crate::cli::paths::handed_on;
@@ -35,11 +35,11 @@ pub(super) fn explain(what: &str) -> Exit {
     if found.is_empty() {
         found.extend(channel::told(what, registry, &language));
     }
-    found.extend(parts::told(what, &parts));
+    found.extend(language_parts::told(what, &parts));
     if let Some(name) = synonyms::named(what) {
         found.push(format!("Scenes say `{name}` for {what}."));
         found.extend(look_up(name, &app).0);
-        found.extend(parts::told(name, &parts));
+        found.extend(language_parts::told(name, &parts));
     }
     if found.is_empty() {
         found.extend(channel::parts(what, registry));
@@ -171,7 +171,7 @@ mod tests {
         let registry = app.world().resource::<SceneRegistry>();
         let parts = Language::of(registry).parts();
         for name in synonyms::names() {
-            assert!(!look_up(name, &app).0.is_empty() || !parts::told(name, &parts).is_empty(), "{name}");
+            assert!(!look_up(name, &app).0.is_empty() || !language_parts::told(name, &parts).is_empty(), "{name}");
         }
     }
 }

@@ -5,9 +5,9 @@
 //! and the next coarser.
 
 mod beyond;
+mod measured_scene;
 mod reference;
 mod refine;
-mod scene;
 
 use std::time::Instant;
 
@@ -22,7 +22,7 @@ use jostle_engine::integrate::{Detail, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::{Plan, Simulation};
 use jostle_film::raster::Diagram;
-use scene::{Compared, Scene};
+use measured_scene::{Compared, Scene};
 
 /// The measure of errors, in words.
 pub const NORM: &str = "the greater of two shares. One is the greatest distance of any point of a body from the reference, \

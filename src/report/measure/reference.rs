@@ -6,7 +6,7 @@
 //! with finer and finer ticks replace them.
 
 use super::beyond::{Beyond, MeanDeviation};
-use super::scene::Scene;
+use super::measured_scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::clock_section::EventTiming;

@@ -1,7 +1,7 @@
 //! Refinement between two ticks of a sequence with steps of two. The cheapest setting that is exact enough may be nearly
 //! twice as fine as needed.
 
-use super::scene::Compared;
+use super::measured_scene::Compared;
 use crate::work_precision::{MethodChoice, Setting, Settings, Subject, TARGETS};
 use jostle_engine::scene::SceneErrors;
 

@@ -5,17 +5,17 @@
 //! `climb.rs` chooses the next run and decides the end. `timing.rs` times the settings in separate runs. `advice.rs` finds the
 //! settings that no other dominates, and the cheapest for a wanted error. `diagram.rs` draws it.
 
-mod choice;
 mod climb;
 mod diagram;
+mod pareto_front;
 mod timing;
 
 use std::time::{Duration, Instant};
 
-pub(super) use choice::USELESS;
-pub use choice::{Advice, TARGETS};
 pub(super) use climb::{Rules, Rungs, Subject, climb};
 pub use diagram::{DiagramLegend, Peer, diagram};
+pub(super) use pareto_front::USELESS;
+pub use pareto_front::{Advice, TARGETS};
 pub(super) use timing::least;
 
 use jostle_engine::integrate::clock_section::EventTiming;
