@@ -243,7 +243,7 @@ fn missed(
     };
     plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
     plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
-    // Where the motion magnifies errors, or has lost all digits, finer steps do not make them smaller in proportion.
+    // Errors that the motion magnifies do not fall in proportion to the error of a step.
     let (apart, horizon) = coarse.apart_until(fine, TELLS_NOTHING * trials.sizes().0);
     let mut known = estimate(if magnified || horizon.is_some() { apart } else { error });
     known.horizon = horizon;

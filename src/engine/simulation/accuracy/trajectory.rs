@@ -304,8 +304,8 @@ impl Trajectory {
         if apart.share.is_finite() && apart.distance.is_finite() && apart.speed.is_finite() { apart } else { infinite }
     }
 
-    /// The distance of another run until both are more than `distance` metres apart, and the last moment in s before that. `None`: they
-    /// stay nearer.
+    /// The distance of another run until both are more than `distance` metres apart. The time is the last moment in s
+    /// before that; `None`: they stay nearer.
     pub fn apart_until(&self, other: &Self, distance: f64) -> (TrajectoryDistance, Option<f64>) {
         let Some(parting) = self.parts(other, distance) else { return (self.apart(other), None) };
         let before = self.differences(other).map(|(time, _)| time).take_while(|time| *time < parting);
