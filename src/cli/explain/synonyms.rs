@@ -18,7 +18,7 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("Thrust", &["rocket", "push"]),
     ("walls", &["ground", "floor", "terrain", "boundary"]),
     ("fill", &["particles", "gas", "grains"]),
-    ("Disc", &["circle", "ball", "sphere"]),
+    ("Disc", &["circle", "ball", "sphere", "wheel"]),
     ("Rectangle", &["box", "square", "brick"]),
     ("Regular", &["hexagon", "triangle"]),
     ("Compound", &["composite", "clump"]),
@@ -34,6 +34,13 @@ const SYNONYMS: &[(&str, &[&str])] = &[
     ("params", &["variables", "constants", "parameters"]),
     ("Repeat", &["loop", "array", "grid"]),
     ("kinematic", &["moving wall", "prescribed"]),
+    ("Repose", &["angle of repose", "heap angle"]),
+    ("Mean", &["average"]),
+    ("ContactForce", &["contact force", "normal force"]),
+    ("inertia", &["moment of inertia"]),
+    ("contacts", &["collision", "collisions", "impact"]),
+    ("rolling", &["rolling resistance", "rolling friction"]),
+    ("LogNormal", &["distribution", "polydisperse"]),
     ("state hash", &["checksum", "fingerprint"]),
 ];
 
