@@ -58,7 +58,7 @@ fn thousands_are_counted_by_the_report() {
     let found = errors(&scene(&bodies));
     assert_eq!(found.errors().len(), 1001);
     let rest = &found.errors()[1000];
-    assert_eq!(rest.message, "1000 more mistakes were found by the checks, the first of them here");
+    assert_eq!(rest.message, "the checks found 1000 more mistakes, the first of them here");
     assert_eq!((rest.path.as_str(), rest.line), ("bodies[1000].atoms.radius", Some(1002)));
 }
 
