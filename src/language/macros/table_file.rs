@@ -241,7 +241,7 @@ mod tests {
             ("t,hip.angle,hip.angle [rad]\n0,1,2", 1, "names the column `hip.angle` twice"),
             ("t,x,hip.angle\n0,1", 2, "has 2 columns, not 3"),
             ("t,x,hip.angle\n0,1,2\n-1,1,2", 3, "goes back in time: `-1,1,2`"),
-            ("t,x,hip.angle\n0,1,NaN", 2, "holds a number that is not finite: `0,1,NaN`"),
+            ("t,x,hip.angle\n0,1,NaN", 2, "holds a number that is NaN or infinite: `0,1,NaN`"),
             ("t,hip.angle\na,b", 2, "holds no two numbers: `a,b`"),
         ] {
             let fault = points_of(text, Some(&columns(None))).unwrap_err();
