@@ -7,6 +7,7 @@ use bevy_ecs::prelude::*;
 use serde::Serialize;
 
 use super::advice::{Remedy, RunScales, rounded_down};
+use super::at_rest;
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
@@ -196,6 +197,7 @@ impl Card {
         };
         card.notes.extend(estimated.notes);
         card.notes.extend(state.models().flat_map(|model| model.remarks(state)));
+        card.notes.extend(at_rest::notes(world));
         card.warnings = warnings(world, card.remedy());
         let evidence = Evidence { world, card: &card };
         let (missing, why) = (evidence.missing_energy(), failure.map(|failure| evidence.why(failure)));

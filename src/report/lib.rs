@@ -1,6 +1,7 @@
 //! The error of results: the error card, estimates, work-precision series, and problems with known answers.
 
 mod advice;
+mod at_rest;
 pub mod bench;
 pub mod card;
 pub mod document;

@@ -9,6 +9,7 @@
 //! | `projection.rs` | brings places and velocities back onto the constraints of joints |
 //! | `rest_solver/` | finds bounded forces that bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | groups the links that act on each other |
+//! | `spring_network.rs` | finds the static displacements of bodies that springs hold |
 //!
 //! Models give rows in stage Forces ([`Rows::add`]). The engine solves all of them together in stage Constraints. Each
 //! model takes its answers in [`Model::take_rows`](crate::tick::Model::take_rows).
@@ -23,6 +24,7 @@ pub mod rest_solver;
 mod row;
 mod rows;
 mod solver;
+pub mod spring_network;
 
 pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};

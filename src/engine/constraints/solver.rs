@@ -52,6 +52,15 @@ impl IslandLink for Linked {
     }
 }
 
+/// A joint bears what contacts leave, whatever its force: its measure is so many times that of the contacts beside it. The square of
+/// this is the share by which contacts depart from their springs.
+const BEARS: f64 = 1e4;
+
+/// The share of a row in an island with contacts, whose greatest measure is given. A joint has no spring and no preferred force.
+fn among_contacts(row: &Row, share: Share, greatest: f64) -> Share {
+    if row.kind == RowKind::Acceleration { share } else { Share { measure: share.measure * BEARS * greatest, ..share } }
+}
+
 /// The equations of some rows.
 #[derive(Debug, Default)]
 pub struct Solver {
@@ -246,7 +255,10 @@ impl Solver {
             let (own, others) = matrix.split_at(island.len() * island.len());
             self.answer.clear();
             self.answer.extend(island.iter().map(|row| values[*row]));
-            redundant::solve(own, &mut self.answer, island.iter().map(|row| shares(&rows[*row])), &mut self.work);
+            let contacts = island.iter().filter(|row| rows[**row].kind == RowKind::Acceleration);
+            let greatest = contacts.map(|row| shares(&rows[*row]).measure).fold(f64::MIN_POSITIVE, f64::max);
+            let shares = |row: &usize| among_contacts(&rows[*row], shares(&rows[*row]), greatest);
+            redundant::solve(own, &mut self.answer, island.iter().map(shares), &mut self.work);
             island.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
             matrix = others;
         }

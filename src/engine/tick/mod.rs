@@ -43,6 +43,7 @@ mod following;
 mod guard;
 pub mod kept;
 pub mod ledger;
+mod loads;
 mod method;
 mod model;
 mod notes;

@@ -5,6 +5,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::Penalty;
+use super::begun::{self, Begun};
 use super::contact::Losses;
 use super::contact_list::ContactList;
 use super::contact_stages;
@@ -24,7 +25,7 @@ use super::switching::Told;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
 use crate::contacts::geometry::{ContactEnd, PairGeometry, Shares, SideA, arms};
-use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface};
+use crate::contacts::{AtomPair, CandidatePairs, ContactForces, DeepestOverlap, Probe, Surface, SurfacePair};
 use crate::contacts::{ContactPoint, Other};
 use crate::tick::pairs::NEW;
 use crate::tick::{Evaluation, Ledger, Rates};
@@ -65,6 +66,8 @@ pub struct PenaltyContacts {
     pub(super) before: Vec<[Option<Slider>; 2]>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
+    /// Contacts that begin in equilibrium, until the first evaluation.
+    pub(super) begun: Vec<Begun>,
 }
 
 impl Default for PenaltyContacts {
@@ -89,6 +92,7 @@ impl Default for PenaltyContacts {
             held_before: None,
             before: Vec::new(),
             slid: 0.0,
+            begun: Vec::new(),
         }
     }
 }
@@ -101,18 +105,36 @@ impl PenaltyContacts {
     }
 }
 
+fn side_of_atom(bodies: &Bodies, atom: u32) -> PairSide {
+    PairSide { stiffness: bodies.atom_stiffness(atom as usize), material: bodies.atom_material(atom as usize) }
+}
+
+/// Both sides of a pair of atoms, as laws see them.
+pub(super) fn sides_of_atoms(bodies: &Bodies, pair: AtomPair) -> (PairSide, PairSide) {
+    (side_of_atom(bodies, pair.a), side_of_atom(bodies, pair.b))
+}
+
+/// Both sides of a probe near a surface, as laws see them.
+pub(super) fn sides_at_surface(bodies: &Bodies, pair: SurfacePair) -> (PairSide, PairSide) {
+    let wall = |wall: usize| PairSide { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
+    let surface = match pair.surface(bodies) {
+        Surface::Wall(index) => wall(index),
+        Surface::Hull(hull) => side_of_atom(bodies, bodies.hulls[hull].first_atom),
+    };
+    match pair.probe(bodies) {
+        Probe::Atom(atom) => (surface, side_of_atom(bodies, atom as u32)),
+        Probe::End(index, _) => (wall(index), surface),
+    }
+}
+
 /// Gives every pair of a new list its slot, with its history if it had one.
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
     let same = std::mem::replace(&mut contacts.generation, bodies.generation) == bodies.generation;
-    let side = |atom: u32| PairSide {
-        stiffness: bodies.atom_stiffness(atom as usize),
-        material: bodies.atom_material(atom as usize),
-    };
     let PenaltyContacts { laws, materials, settings, atoms, surfaces, .. } = contacts;
     atoms.carry(&pairs.atoms_before, same, |index| {
-        let pair = pairs.atoms[index];
-        laws.index::<N>(side(pair.a), side(pair.b), materials, settings)
+        let (a, b) = sides_of_atoms(bodies, pairs.atoms[index]);
+        laws.index::<N>(a, b, materials, settings)
     });
     atoms.pairs.list(pairs.atoms.iter().map(|pair| (pair.a, pair.b)));
     // Between discs that turn about their centres no lever arm changes.
@@ -127,17 +149,8 @@ fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies
             }
         }
     }
-    let wall = |wall: usize| PairSide { stiffness: f64::INFINITY, material: bodies.walls[wall].material };
     surfaces.carry(&pairs.surfaces_before, same, |index| {
-        let pair = pairs.surfaces[index];
-        let surface = match pair.surface(bodies) {
-            Surface::Wall(index) => wall(index),
-            Surface::Hull(hull) => side(bodies.hulls[hull].first_atom),
-        };
-        let (a, b) = match pair.probe(bodies) {
-            Probe::Atom(atom) => (surface, side(atom as u32)),
-            Probe::End(index, _) => (wall(index), surface),
-        };
+        let (a, b) = sides_at_surface(bodies, pairs.surfaces[index]);
         laws.index::<N>(a, b, materials, settings)
     });
     if bodies.hulls.is_empty() {
@@ -254,6 +267,9 @@ pub(super) fn apply<N: NormalForce>(
     contacts.records.take_back(bodies);
     if contacts.version != pairs.version {
         carry_history::<N>(contacts, bodies, pairs);
+        if !contacts.begun.is_empty() {
+            begun::take_over::<N>(contacts, rolling.as_deref_mut(), pairs, evaluation.mode);
+        }
         let PenaltyContacts { records, atoms, .. } = &mut *contacts;
         records.prepare(bodies, &pairs.atoms, atoms);
         contacts.lay_asleep(bodies, pairs, forces.as_deref_mut());

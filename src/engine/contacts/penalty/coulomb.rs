@@ -37,7 +37,7 @@ pub enum Grip {
 
 /// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
 /// coefficients lengths.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct SliderLaw {
     /// In N/m; above zero if a coefficient is.
     pub stiffness: f64,

@@ -2,6 +2,8 @@
 //! independent choices.
 
 pub mod apply;
+pub mod at_rest;
+mod begun;
 mod case;
 pub mod contact;
 pub mod contact_list;
@@ -9,11 +11,14 @@ mod contact_stages;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;
+mod equilibrium;
+mod equilibrium_search;
 mod features;
 mod follow;
 mod handover;
 mod held;
 mod hull_kernel;
+mod indeterminate;
 mod indicators;
 pub mod inelasticity;
 mod joined;
@@ -37,6 +42,7 @@ mod switching;
 mod watched;
 
 use bevy_app::App;
+use bevy_ecs::world::World;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
@@ -51,7 +57,7 @@ pub use rolling::RollingContacts;
 use super::search;
 use crate::scene::units::{Damping, Rate};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
-use crate::tick::TickAppExt;
+use crate::tick::{AfterLoad, TickAppExt};
 use crate::world::Materials;
 
 /// Contacts as springs: overlap makes force.
@@ -71,6 +77,20 @@ pub struct Penalty {
     pub tangential: TangentialLaw,
     /// The law against rolling. Default: `None`.
     pub rolling: RollingLaw,
+    /// How bodies begin that touch at the start. Default: `Equilibrium`.
+    pub start: Start,
+}
+
+/// How bodies begin that touch at the start and do not move.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
+#[serde(deny_unknown_fields)]
+pub enum Start {
+    /// In equilibrium where there is one: the engine moves them into the springs of their contacts, which then bear the
+    /// loads. The card says by how far.
+    #[default]
+    Equilibrium,
+    /// As the scene places them. Bodies that just touch drop onto the springs of their contacts.
+    AsPlaced,
 }
 
 /// The normal law.
@@ -163,10 +183,17 @@ pub fn install(settings: Penalty, app: &mut App) {
     let settings = Penalty { rolling: settings.rolling.acting(), ..settings };
     search::plugin(app);
     app.init_resource::<Materials>();
-    match settings.normal {
-        NormalLaw::Inelasticity => app.add_model(Contacts::<Inelasticity>::new(settings)),
-        NormalLaw::Dashpot => app.add_model(Contacts::<Dashpot>::new(settings)),
+    let begin: fn(&mut World) = match settings.normal {
+        NormalLaw::Inelasticity => {
+            app.add_model(Contacts::<Inelasticity>::new(settings));
+            equilibrium::begin::<Inelasticity>
+        }
+        NormalLaw::Dashpot => {
+            app.add_model(Contacts::<Dashpot>::new(settings));
+            equilibrium::begin::<Dashpot>
+        }
     };
+    app.world_mut().get_resource_or_init::<AfterLoad>().0.push(begin);
 }
 
 impl Entry for Penalty {

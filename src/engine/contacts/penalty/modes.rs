@@ -6,6 +6,7 @@ use super::apply::{Own, PenaltyContacts, Shared, Sink, approach};
 use super::contact::{Contact, Losses};
 use super::contact_list::Edited;
 use super::coulomb::{Slider, SliderLaw};
+use super::indeterminate::{self, Resting};
 use super::joined::{Joined, find_joined, joint_row};
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::PairLaw;
@@ -186,11 +187,16 @@ impl Choice<'_> {
 
     /// The rolling spring of a contact, and whether the contact slides without it, in scenes that have rolling friction.
     fn rolls(&self, case: &ContactSides, pair: &PairLaw) -> Option<(CoulombSpring, bool)> {
+        let (slider, law) = self.slider(case, pair)?;
+        Some((slider.drawn(&law), slider.slides_without_spring(&law)))
+    }
+
+    /// The rolling spring of a contact as it is, with its law, in scenes that have rolling friction.
+    fn slider(&self, case: &ContactSides, pair: &PairLaw) -> Option<(Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref()?;
         let law = rolling.law(pair, case.other_end(), &case.b);
         let list = if case.listed() == Listed::Atoms { &rolling.atoms } else { &rolling.surfaces };
-        let slider = &list[case.index as usize];
-        Some((slider.drawn(&law), slider.slides_without_spring(&law)))
+        Some((list[case.index as usize], law))
     }
 
     /// The rolling spring of a contact with its law, in scenes that have rolling friction.
@@ -414,11 +420,33 @@ impl Choice<'_> {
             [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent(body), self.dt))
         };
         if members.list.iter().zip(island.movers.iter().zip(&loads).skip(1)).all(stands) {
+            if N::SET_VALUED && joined.is_empty() {
+                self.share_out(cases, island);
+            }
             self.lay_to_rest(&members.list, &loads[1..], ledger);
             found.rest = true;
             found.tried &= !tries;
         } else {
             found.stops |= cases.len() > MANY / 8;
+        }
+    }
+
+    /// Of all forces that balance the loads of an island at rest, it takes those nearest to the springs of its contacts.
+    fn share_out(&mut self, cases: &[ContactSides], island: &Island) {
+        let resting = cases.iter().zip(&island.contacts).map(|(case, seen)| {
+            let (contact, law) = self.known(case);
+            let (slider, rolling) = self.slider(case, law).unwrap_or_default();
+            let found = [contact.normal_force, contact.tangential_force(law), slider.force(&rolling)];
+            Resting { seen, contact, law: *law, rolling: rolling.stiffness * slider.elongation, found }
+        });
+        let resting: Vec<Resting> = resting.collect();
+        let Some(forces) = indeterminate::nearest(&resting, &island.movers) else { return };
+        for (case, [normal, tangential, rolling]) in cases.iter().zip(forces) {
+            self.change(case, FrictionOutcome::Holds(rolling), |contact, law, losses| {
+                let before = *contact;
+                contact.hold(law, normal, FrictionOutcome::Holds(tangential), losses);
+                Some(before)
+            });
         }
     }
 

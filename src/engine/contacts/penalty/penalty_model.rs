@@ -6,6 +6,7 @@ use std::marker::PhantomData;
 use bevy_ecs::prelude::*;
 
 use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
+use super::at_rest::{self, AtRest};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
@@ -31,6 +32,11 @@ pub struct PenaltyState {
 }
 
 impl PenaltyState {
+    /// What the card tells of contacts at rest.
+    pub fn at_rest(&self, state: &State) -> AtRest {
+        at_rest::look(&self.contacts, state)
+    }
+
     /// The section of the scene for contacts.
     pub fn settings(&self) -> &Penalty {
         &self.contacts.settings

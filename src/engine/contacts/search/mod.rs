@@ -29,7 +29,9 @@ use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
 use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, SurfacePair};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::{AfterLoad, Dependence, Energies, FailureKind, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{
+    AfterLoad, Dependence, Energies, Evaluation, EvaluationMode, FailureKind, Model, State, SteadySpring, TickAppExt,
+};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -67,6 +69,15 @@ pub fn plugin(app: &mut App) {
         hulls::note_sharp,
         hulls::refuse_pointed,
     ]);
+}
+
+/// The candidate pairs of the present state, for a look before the first tick, and by how far in metres each body may then move
+/// without missing a pair. `None` if there are too many pairs.
+pub(super) fn look(bodies: &mut Bodies) -> Option<(CandidatePairs, f64)> {
+    let (mut pairs, mut bounds) = (CandidatePairs::default(), Bounds::default());
+    bounds.update(bodies, &Evaluation { mode: EvaluationMode::Frozen, ..Evaluation::default() });
+    let too_many = PairSearch::default().update(&mut pairs, bodies, &mut bounds);
+    too_many.is_none().then_some((pairs, bounds.margin / 2.0))
 }
 
 /// Moves nothing by itself.
