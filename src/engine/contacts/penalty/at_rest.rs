@@ -20,7 +20,7 @@ use crate::tick::State;
 use crate::world::Bodies;
 use glam::DVec2;
 
-/// More contacts at rest than these are not looked at: the band of a heap is of no use.
+/// Bands are not looked for among more contacts at rest or rows of joints than these: the band of a heap is of no use.
 const MOST: usize = 64;
 
 /// A share of a force that counts as rounding.
@@ -73,13 +73,18 @@ struct Held {
 /// Looks at all contacts at rest of the present state.
 pub(super) fn look(contacts: &PenaltyContacts, state: &State) -> AtRest {
     let Some(pairs) = &state.pairs else { return AtRest::default() };
-    let held = find(contacts, (&state.bodies, pairs));
+    let mut held = find(contacts, (&state.bodies, pairs));
     let depth = |held: &Held| held.geometry.overlap / held.needed;
     let deepest = held.iter().filter(|held| held.needed > 0.0).reduce(|a, b| if depth(b) > depth(a) { b } else { a });
     let deepest =
         deepest.map(|held| DepthAtRest { between: held.between, overlap: held.geometry.overlap, needed: held.needed });
-    let bands = if held.len() > MOST { Vec::new() } else { bands(&held, state) };
-    AtRest { deepest, bands }
+    let mut joints: Vec<NetworkSpring> =
+        state.rows().all().iter().filter_map(|row| joint(row, &state.bodies)).collect();
+    if held.len() > MOST || joints.len() > MOST {
+        return AtRest { deepest, bands: Vec::new() };
+    }
+    let count = number(held.iter_mut().map(|held| &mut held.row).chain(&mut joints));
+    AtRest { deepest, bands: bands(&held, &joints, count) }
 }
 
 fn find(contacts: &PenaltyContacts, (bodies, pairs): (&Bodies, &CandidatePairs)) -> Vec<Held> {
@@ -117,8 +122,19 @@ fn find(contacts: &PenaltyContacts, (bodies, pairs): (&Bodies, &CandidatePairs))
     held
 }
 
-fn bands(held: &[Held], state: &State) -> Vec<ForceBand> {
-    let joints: Vec<NetworkSpring> = state.rows().all().iter().filter_map(|row| joint(row, &state.bodies)).collect();
+/// Numbers the bodies of all rows, in canonical order. Returns how many they are.
+fn number<'a>(rows: impl Iterator<Item = &'a mut NetworkSpring>) -> usize {
+    let rows: Vec<&mut NetworkSpring> = rows.collect();
+    let mut members: Vec<usize> = rows.iter().flat_map(|row| row.ends).flatten().map(|end| end.body).collect();
+    members.sort_unstable();
+    members.dedup();
+    for end in rows.into_iter().flat_map(|row| &mut row.ends).flatten() {
+        end.body = members.partition_point(|member| *member < end.body);
+    }
+    members.len()
+}
+
+fn bands(held: &[Held], joints: &[NetworkSpring], count: usize) -> Vec<ForceBand> {
     let mut between: Vec<(Entity, Entity)> = held.iter().map(|held| held.between).collect();
     between.sort_unstable();
     between.dedup();
@@ -130,8 +146,7 @@ fn bands(held: &[Held], state: &State) -> Vec<ForceBand> {
             held.iter().zip(forces).filter(|(held, _)| held.between == held_pair).map(|(_, force)| force).sum::<f64>()
         };
         let present: Vec<f64> = held.iter().map(|held| held.force).collect();
-        let [least, greatest] =
-            [-1.0, 1.0].map(|sign| sum(&extreme((held, &joints), held_pair, sign, state.bodies.len())));
+        let [least, greatest] = [-1.0, 1.0].map(|sign| sum(&extreme((held, joints), held_pair, sign, count)));
         let force = sum(&present);
         if greatest - least > ROUNDING * greatest.abs() {
             found.push(ForceBand { between: held_pair, force, ends: (least, greatest) });
@@ -155,7 +170,7 @@ fn extreme(
     (held, joints): (&[Held], &[NetworkSpring]),
     between: (Entity, Entity),
     sign: f64,
-    bodies: usize,
+    count: usize,
 ) -> Vec<f64> {
     let mut forces: Vec<f64> = held.iter().map(|held| held.force).collect();
     let greatest = held.iter().map(|held| held.band.1).fold(0.0, f64::max);
@@ -163,7 +178,7 @@ fn extreme(
     let mut free = vec![true; held.len()];
     for _ in 0..held.len() {
         let mut rows = Vec::new();
-        let mut pushed = vec![Twist::default(); bodies];
+        let mut pushed = vec![Twist::default(); count];
         for (held, _) in held.iter().zip(&free).filter(|(_, free)| **free) {
             rows.push(NetworkSpring { stiffness: weight(held), ..held.row });
             if held.between == between {

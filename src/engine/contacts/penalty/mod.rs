@@ -37,6 +37,7 @@ pub mod rolling;
 mod rolling_stages;
 mod search_schedule;
 mod settling;
+mod standing;
 mod surfaces;
 mod switching;
 mod watched;

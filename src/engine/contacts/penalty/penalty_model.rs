@@ -11,7 +11,8 @@ use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
 use super::{
-    Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, search_schedule, watched,
+    Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, search_schedule,
+    standing, watched,
 };
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::touch::ContactPoint;
@@ -127,6 +128,7 @@ impl<N: NormalForce> Model for Contacts<N> {
         let PenaltyState { contacts, rolling } = &mut self.own;
         if evaluation.mode == EvaluationMode::Frozen {
             features::keep(pairs, &contacts.surfaces, bodies);
+            evaluation.stale |= standing::hold::<N>(contacts, bodies, pairs);
         } else {
             features::release(pairs);
         }
