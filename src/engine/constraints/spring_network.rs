@@ -128,9 +128,11 @@ pub fn solve(springs: &[NetworkSpring], forces: &[Twist], work: &mut usize) -> R
     let (linear, angular) = (|twist: &Twist| twist.linear.length(), |twist: &Twist| twist.angular.abs());
     let ends = springs.iter().flat_map(|spring| spring.ends).flatten().filter(|end| end.row.linear != DVec2::ZERO);
     let reach = ends.map(|end| end.row.angular.abs()).fold(0.0, f64::max);
-    let force = greatest(forces, linear);
-    let held = greatest(&residual, linear) <= HELD * force
-        && greatest(&residual, angular) <= HELD * (force * reach + greatest(forces, angular));
+    let torque = greatest(forces, angular);
+    // A torque makes forces in the springs, and forces make torques: rounding of both is a share of the greater.
+    let force = greatest(forces, linear).max(if reach > 0.0 { torque / reach } else { 0.0 });
+    let held =
+        greatest(&residual, linear) <= HELD * force && greatest(&residual, angular) <= HELD * torque.max(force * reach);
     let finite = found.iter().all(|twist| twist.linear.is_finite() && twist.angular.is_finite());
     if held && finite { Ok(found) } else { Err(Unsolved::Free) }
 }

@@ -30,6 +30,9 @@ const RETRIES: usize = 8;
 /// The forces on a body balance up to this share: rounding of their sum.
 const BALANCED: f64 = 1e-12;
 
+/// The same where rounding of far places leaves no better balance: from round to round it does not halve any more.
+const NEARLY: f64 = 1e-7;
+
 /// Friction bears this share of its cone at most. The rest keeps rounding of later forces inside the cone.
 const OF_CONE: f64 = 1.0 - 1e-6;
 
@@ -104,6 +107,8 @@ pub(super) struct IslandSearch {
     start: Vec<(DVec2, f64)>,
     by: Vec<Twist>,
     retries: usize,
+    /// The greatest unbalanced force of the round before, as a share of all forces on its body.
+    left: f64,
     holds_as_placed: bool,
     pub outcome: Outcome,
 }
@@ -224,6 +229,7 @@ impl Search {
                 start,
                 by,
                 retries: 0,
+                left: f64::INFINITY,
                 holds_as_placed: false,
                 outcome: Outcome::Open,
             });
@@ -303,7 +309,7 @@ impl Search {
         let extent = |body: usize| bodies.extent(body).max(f64::MIN_POSITIVE);
         let own = |body: usize| loads[body].linear.length() + loads[body].angular.abs() / extent(body);
         // The sum of all forces on each body, and what rounding makes of them.
-        let mut sizes: Vec<f64> = members.iter().map(|&body| BALANCED * own(body)).collect();
+        let mut sizes: Vec<(f64, f64)> = members.iter().map(|&body| (own(body), 0.0)).collect();
         let index =
             |body: usize| Some(self.place[body]).filter(|place| place.0 == number).map(|place| place.1 as usize);
         let mut springs = Vec::new();
@@ -321,8 +327,8 @@ impl Search {
             sides.push(&mut forces, normal * part.now.normal - normal.perp() * part.now.tangential);
             sides.twist(&mut forces, part.now.rolling);
             let noise = NOISE * place(&geometry, bodies).abs().max_element() * part.law.stiffness;
-            let size = BALANCED * (part.now.normal + part.now.tangential.abs()) + noise;
-            sides.ends().for_each(|end| sizes[end] += size);
+            let size = part.now.normal + part.now.tangential.abs();
+            sides.ends().for_each(|end| sizes[end] = (sizes[end].0 + size, sizes[end].1 + noise));
             springs.push((sides.along(normal, part.law.stiffness), true));
             if part.law.tangential().acts() {
                 springs.push((sides.along(normal.perp(), part.law.tangential_stiffness), part.now.holds.0));
@@ -331,10 +337,13 @@ impl Search {
                 springs.push((sides.turning(rolls.stiffness), part.now.holds.1));
             }
         }
-        let balanced = |((force, size), &body): ((&Twist, &f64), &usize)| {
-            force.linear.length() <= *size && force.angular.abs() <= size * extent(body)
-        };
-        if forces.iter().zip(&sizes).zip(&*members).all(balanced) {
+        let lacks = |force: &Twist, body: usize| force.linear.length().max(force.angular.abs() / extent(body));
+        let each =
+            || forces.iter().zip(&sizes).zip(&*members).map(|((force, size), body)| (lacks(force, *body), *size));
+        let left = each().filter(|(lacks, _)| *lacks > 0.0).map(|(lacks, (sum, _))| lacks / sum).fold(0.0, f64::max);
+        let before = std::mem::replace(&mut island.left, left);
+        let balanced = each().all(|(lacks, (sum, noise))| lacks <= BALANCED * sum + noise);
+        if balanced || left <= NEARLY && left > 0.5 * before {
             return island.end(first, self.set_valued, bodies);
         }
         let held: Vec<NetworkSpring> = springs.iter().filter(|(_, holds)| *holds).map(|(spring, _)| *spring).collect();
