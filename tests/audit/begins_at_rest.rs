@@ -20,7 +20,7 @@ const GRAVITY: f64 = 9.81;
 
 /// The default, and two ways with located events.
 fn ways() -> [(&'static str, Overrides); 3] {
-    let located = Overrides { method: Some("Dop853".to_owned()), ..Overrides::default() };
+    let located = Overrides { method: Some("Dop853".to_owned()), tick: Some(1e-3), ..Overrides::default() };
     let tolerance = Overrides { tolerance: Some(1e-6), ..Overrides::default() };
     [("default", Overrides::default()), ("Dop853", located), ("tolerance 1e-6", tolerance)]
 }
