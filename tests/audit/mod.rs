@@ -7,4 +7,5 @@ mod draw;
 mod impact;
 mod landings;
 mod ran;
+mod releases;
 mod statements;

@@ -11,8 +11,9 @@ use glam::DVec2;
 use super::control::{Allowance, Control, MOST_STEPS};
 use super::event_free_ticks::EventFreeTicks;
 use super::event_overload::EventOverload;
-use super::interior_events::Inside;
+use super::interior_events::{Inside, StageValues};
 use super::locate::{Bracket, IndicatorSample, vanished};
+use super::step_bounds::{longest_among_many, longest_under_loads, rounding_of_time};
 use super::steps::{Divided, OneStep, Start};
 use crate::tick::Flow;
 use crate::tick::Integrator;
@@ -26,11 +27,6 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// The number of times that a step is repeated with lists of a larger reach. Each time the reach is four times as
 /// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
-
-/// In scenes of more atoms than this a step moves no body farther than `MOST_RADII` smallest radii. Each stage visits
-/// all pairs that a step may bring together, and an event ends it soon.
-const MANY_ATOMS: usize = 64;
-const MOST_RADII: f64 = 8.0;
 
 /// Steps between two looks at how far they lead.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
@@ -197,7 +193,7 @@ impl EventStepper {
     /// its end is the present one, and evaluated. `None`: too many indicators vanish, and the state is the one of the beginning.
     fn make(&mut self, flow: &mut WorldFlow, from: f64, until: f64) -> Option<Made> {
         self.begin(flow);
-        let mut until = until;
+        let mut until = until.min(from + longest_under_loads(flow, &self.work.indicators, from));
         if let Some(control) = &mut self.control {
             control.look(flow);
             let start = (from, self.state.as_slice(), self.work.rates.as_slice());
@@ -254,12 +250,16 @@ impl EventStepper {
         let Work { rates, change, trial, indicators, .. } = &mut self.work;
         let start = Start { time: from, state: &self.state, rates };
         let (method, rest) = (&mut self.method, &self.rest);
+        let sampled = indicators.iter().any(Indicator::is_sampled);
+        let mut stages = Vec::new();
         let mut rejected = 0_u64;
         if let Some(control) = &mut self.control {
             let (reach, order) = (flow.reach(), method.order_of_error());
             loop {
                 let length = until - from;
+                flow.record_stages(sampled);
                 method.step(flow, start, length, change);
+                stages = flow.recorded_stages();
                 let mut error = control.error(&**method, flow, (reach, length, change.as_slice())).unwrap_or_default();
                 if error > 1.0 && flow.tick.changes_with_time() {
                     error = control.error_beside(&**method, &rounding_of_time(flow, start, length)).unwrap_or_default();
@@ -306,11 +306,16 @@ impl EventStepper {
             }
         };
         let (mut told, mut share, mut fired) = (Vec::new(), 1.0, Vec::new());
+        flow.record_stages(sampled && !controlled);
         reach(flow, share, &mut told);
+        if !controlled {
+            stages = flow.recorded_stages();
+        }
         if !self.overload.bears(told.iter().filter(|indicator| vanished(indicator)).count()) {
             return None;
         }
-        let mut inside = Inside::of(indicators, &told, length);
+        let share_of = |(time, values)| StageValues { share: (time - from) / length, values };
+        let mut inside = Inside::of(indicators, &told, stages.into_iter().map(share_of).collect(), length);
         while let Some(next) = inside.next() {
             share = next;
             reach(flow, next, &mut told);
@@ -440,32 +445,6 @@ impl EventStepper {
         let most = self.control.as_ref().map_or(MOST_STEPS, Control::most_steps);
         STEPS_BETWEEN_LOOKS as f64 * (end - now) > most * way
     }
-}
-
-/// The longest sensible step in s in a scene of many bodies that may collide.
-fn longest_among_many(flow: &WorldFlow) -> f64 {
-    let bodies = &flow.tick.state().bodies;
-    if bodies.atom_count() <= MANY_ATOMS || flow.tick.bounds().is_none() {
-        return f64::INFINITY;
-    }
-    let (reach, way) = (flow.reach(), MOST_RADII * bodies.smallest_radius);
-    // The smaller root of `v t + a t^2/2 = way`, written so that nothing cancels.
-    2.0 * way / (reach.speed + (reach.speed * reach.speed + 2.0 * reach.acceleration * way).sqrt())
-}
-
-/// The effect of the rounding of times on each number of the state in a step of `length` seconds. The force of a short
-/// pulse differs between two neighbouring times.
-fn rounding_of_time(flow: &mut WorldFlow, start: Start, length: f64) -> Vec<f64> {
-    let until = start.time + length;
-    let (mut rounding, mut before) = (vec![0.0; flow.dimension()], vec![0.0; flow.dimension()]);
-    flow.rates(until, start.state, &mut rounding);
-    flow.rates(until - 4.0 * f64::EPSILON * until.abs(), start.state, &mut before);
-    rounding.iter_mut().zip(&before).for_each(|(rate, before)| *rate = length * (*rate - before).abs());
-    let coordinates = flow.coordinates();
-    for index in 0..coordinates {
-        rounding[index] += length * rounding[coordinates + index];
-    }
-    rounding
 }
 
 /// `state + (change + rest)`.

@@ -12,6 +12,7 @@ mod event_stepper;
 mod interior_events;
 mod locate;
 mod semi_implicit_euler;
+mod step_bounds;
 pub mod steps;
 mod velocity_verlet;
 

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::ends::EndPair;
 use super::law::Freedom;
 use crate::constraints::{Row, RowKind};
-use crate::tick::{Indicator, State};
+use crate::tick::{Bend, Indicator, State};
 
 /// A share of its size within which a value is at the limit.
 const AT: f64 = 1e-14;
@@ -44,7 +44,7 @@ pub struct Limit {
     /// The limit whose indicator has vanished, and the one that was left since the last step.
     reached: Option<Side>,
     left: Option<Side>,
-    /// The force of the last evaluation, and the greatest since the joint is held.
+    /// The force of the last evaluation, and the greatest in accepted states since the joint is held.
     force: f64,
     greatest: f64,
     /// The fastest arrival so far, in rad/s or m/s.
@@ -141,6 +141,10 @@ impl Limit {
     /// Takes the force of its row.
     pub fn note(&mut self, force: f64) {
         self.force = self.at.map_or(0.0, |side| side.sign() * force);
+    }
+
+    /// The last evaluation was that of an accepted state. Trial states may have forces beyond all bounds.
+    pub fn accept(&mut self) {
         self.greatest = self.greatest.max(self.force.abs());
     }
 
@@ -202,14 +206,14 @@ impl Limit {
         if self.at.is_some() {
             let rounding = PULL * self.greatest;
             let row = pair.row(&freedom.along, RowKind::Position);
-            let bend = pair.bend_of_row(&row, 2.0 * self.greatest, state);
-            return told.push(Indicator { value: self.force, slope: f64::NAN, bend, rounding, swings: 0.0 });
+            let bend = Bend::AtMost(pair.bend_of_row(&row, 2.0 * self.greatest, state));
+            return told.push(Indicator { rounding, ..Indicator::of_value(self.force, bend) });
         }
         let bend = pair.row(&freedom.along, RowKind::Position).acceleration(state.bodies()).abs();
         let rate = pair.rate(&freedom.along);
         told.extend(self.sides().map(|side| {
             let (value, size) = self.room(side, pair, freedom);
-            Indicator { value, slope: side.sign() * rate, bend, rounding: AT * size, swings: 0.0 }
+            Indicator { rounding: AT * size, ..Indicator::new(value, side.sign() * rate, Bend::AtMost(bend)) }
         }));
     }
 

@@ -9,7 +9,7 @@ use super::limit::{Arrival, Limit, Press};
 use crate::constraints::{RowKind, Rows};
 use crate::scene::Diagnostics;
 use crate::scene::units::{Dimension, Quantity, Scalar};
-use crate::tick::{Blow, EvaluationMode, Indicator, State};
+use crate::tick::{Bend, Blow, EvaluationMode, Indicator, State};
 
 /// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -154,6 +154,8 @@ impl JointParts {
             return true;
         }
         let Some(freedom) = law.freedom(pair) else { return false };
+        self.limit.iter_mut().for_each(Limit::accept);
+        self.acting().into_iter().for_each(|friction| friction.accept(pair, &freedom.along));
         let mut changed = false;
         if let Some(limit) = &mut self.limit {
             let lets_go = !located && limit.follow();
@@ -202,9 +204,8 @@ impl JointParts {
     /// Adds the indicators of all modes, if the joint bears this force in N.
     pub fn tell(&mut self, law: &dyn JointLaw, pair: &EndPair, force: f64, state: &State, told: &mut Vec<Indicator>) {
         if let Some(most) = self.break_force {
-            let bend = pair.bend(2.0 * most, state);
-            let rounding = 1e-13 * most;
-            told.push(Indicator { value: most - force, slope: f64::NAN, bend, rounding, ..Default::default() });
+            let bend = Bend::AtMost(pair.bend(2.0 * most, state));
+            told.push(Indicator { rounding: 1e-13 * most, ..Indicator::of_value(most - force, bend) });
         }
         let Some(freedom) = law.freedom(pair) else { return };
         if let Some(limit) = &self.limit {
@@ -246,6 +247,6 @@ impl JointParts {
             self.friction.iter_mut().for_each(Bounded::hold);
             return true;
         }
-        self.acting().is_some_and(|friction| friction.choose(pair, &freedom.along))
+        self.acting().is_some_and(|friction| friction.settle(pair, &freedom.along, state))
     }
 }

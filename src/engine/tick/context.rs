@@ -267,6 +267,10 @@ impl Tick<'_> {
         if changed {
             self.evaluate_stage(time);
         }
+        if let Some(row) = self.state.rows.pulling() {
+            let body = row.sides.iter().flatten().map(|side| side.body).rfind(|body| self.state.bodies.dynamic[*body]);
+            self.state.end_run(body.unwrap_or_default(), FailureKind::Pulls);
+        }
     }
 
     /// Called before a step of `length` seconds from the state just evaluated. Candidate lists get a reach of `times`

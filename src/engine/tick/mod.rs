@@ -81,7 +81,7 @@ pub use guard::Created;
 pub use ledger::{Ledger, Rates, Totals};
 pub use method::{Integrator, Method};
 pub use model::{
-    Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
+    Bend, Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
 };
 pub use notes::Notes;
 pub use ode::Flow;

@@ -314,6 +314,11 @@ impl State {
         self.force_systems > 0 || self.roles.velocity_beside_joints
     }
 
+    /// Whether systems of users add forces, whose course in time is unknown.
+    pub(crate) fn has_force_systems(&self) -> bool {
+        self.force_systems > 0
+    }
+
     /// Whether some force depends on velocities.
     pub fn velocity_dependent(&self) -> bool {
         self.force_systems > 0 || self.roles.velocity_dependent
