@@ -64,6 +64,8 @@ impl Inside {
     /// A step of `length` seconds, seen at its beginning and end, and at its stages in any order.
     pub fn of(begin: &[Indicator], end: &[Indicator], mut stages: Vec<StageValues>, length: f64) -> Self {
         let sample = |share: f64, indicators: &[Indicator]| IndicatorSample { share, indicators: indicators.to_vec() };
+        // Lists of candidate pairs that were renewed within the step have other indicators.
+        stages.retain(|stage| stage.values.len() == begin.len());
         stages.sort_by(|a, b| a.share.total_cmp(&b.share));
         let mut last = 0.0;
         stages.retain(|stage| {

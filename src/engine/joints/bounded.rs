@@ -9,6 +9,9 @@ use crate::tick::{Bend, Indicator, State};
 
 /// A rate counts as held if its deviation is below this share of the spins and speeds behind it.
 const SAME: f64 = 1e-9;
+/// A rate that others hold accelerates by less than this share of what its own torque does. Forces of dependent rows leave
+/// 1e-10.
+const TURNS: f64 = 1e-6;
 /// A share of torques and rates that is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -133,7 +136,7 @@ impl Bounded {
         let Mode::Gives(sign) = self.mode else { return false };
         let row = pair.row(along, RowKind::Velocity);
         let own = self.limit * row.response(&row, state.bodies());
-        let turns = self.missing(pair, along) == 0.0 && sign * row.acceleration(state.bodies()) > SAME * own;
+        let turns = self.missing(pair, along) == 0.0 && sign * row.acceleration(state.bodies()) > TURNS * own;
         if turns {
             self.hold();
         }
