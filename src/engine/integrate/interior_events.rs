@@ -156,7 +156,7 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
             return fitted(a, b, way * length).filter(|_| known).map(|at| from.share + at * way);
         };
         let bend = (first.max(second) + (first - second).abs()) * length * length;
-        if a.value >= 0.0 && b.value < 0.0 {
+        if a.value >= 0.0 && (vanished(b) || !known && b.value < 0.0) {
             let several =
                 if known { returns([a, b], bend, (way, length)) } else { a.value - b.value < 0.5 * bend * way * way };
             return (several && (known || a.value > 0.0)).then_some(from.share + 0.5 * way);
@@ -211,11 +211,12 @@ fn fitted(a: &Indicator, b: &Indicator, length: f64) -> Option<f64> {
         return None;
     }
     let error = WARY * (bends[1] - bends[0]).powi(2) / bend / 24.0;
-    let height = |share: f64| cubic(a, b, length, share);
+    let rounding = a.rounding.max(b.rounding);
+    let height = |share: f64| cubic(a, b, length, share) + rounding;
     let mut shares = (1..PARTS).map(|part| part as f64 / PARTS as f64);
-    if b.value < 0.0 {
+    if vanished(b) {
         let passed = shares.find(|share| height(*share) < 0.0)?;
-        return shares.any(|share| height(share) > 0.0).then_some(passed);
+        return shares.any(|share| height(share) > rounding).then_some(passed);
     }
     let least = |share: f64| height(share) - error * (share * (1.0 - share)).powi(2);
     let lowest = shares.min_by(|a, b| least(*a).total_cmp(&least(*b)))?;
