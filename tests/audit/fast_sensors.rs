@@ -145,13 +145,13 @@ fn looks_inside_steps_change_no_bit() {
 #[test]
 fn a_body_that_turns_within_a_frame_passes_twice() {
     for (clock, ways) in [("", &WAYS[..]), ("tick: 0.1, method: VelocityVerlet", &WAYS[..1])] {
-        // Rises 0.2 m within 0.2 s; the gate lies below the top by the way of so many seconds.
+        // Rises 0.3125 m within 0.25 s; the gate lies below the top by the way of so many seconds.
         for late in [0.004, 0.011, 0.03] {
-            let gate = 0.2 - 5.0 * late * late;
+            let gate = 0.3125 - 5.0 * late * late;
             let text = format!(
                 "Scene(format: 1, clock: (duration: 0.5, {clock}), gravity: (0, -10), contacts: None,
                 sensors: [Counter(name: \"k\", of: \"b\", gate: ((1, {gate:?}), (-1, {gate:?})))],
-                bodies: [(name: \"b\", at: (0, 0), velocity: (0.1, 2), atoms: Disc(radius: 0.02))])"
+                bodies: [(name: \"b\", at: (0, 0), velocity: (0.1, 2.5), atoms: Disc(radius: 0.02))])"
             );
             for way in ways {
                 let mut simulation = load(&text, *way);

@@ -180,6 +180,8 @@ pub(super) fn refresh(world: &mut World) {
         alert: false,
     };
     tick.evaluate_stage(now);
+    // The state may lie inside a step, whose lists are known to reach far enough.
+    tick.recall_bounds();
     state.progress.running = Some(running);
     *world.resource_mut::<State>() = state;
 }
