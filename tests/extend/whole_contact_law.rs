@@ -2,7 +2,7 @@
 //!
 //! Law: a law that is added by `add_law` is a model like any other. The names of the methods come from the text of the trait. So a
 //! method that is new there is wanted here. Each result has its closed form:
-//! `m v^2/2 (1 - e^(-2 c t/m))` for the account of a brake, `F (T - t0)/m` for a force from an edge on. A row holds what it says, and
+//! `m v^2/2 (1 - e^(-2 c t/m))` for the account of a brake, `F' (T - t0)^2/(2 m)` for a force that grows from an edge on. A row holds what it says, and
 //! the tick that the engine chooses divides half a swing of the drive into 40. Tolerance: rounding of a thousand ticks, for the brake `(c dt/m)^2`.
 //! Not tested: what laws make of pairs, see `contact_law` and `axis_wise`.
 
@@ -34,7 +34,7 @@ type Called = Arc<Mutex<BTreeSet<&'static str>>>;
 struct Parts {
     /// A brake on body 0, in N s/m.
     brake: f64,
-    /// A force on body 0 along x in N, and the time in s from which it acts.
+    /// A force on body 0 along x that grows, in N/s, and the time in s from which it does.
     push: (f64, f64),
     /// A row holds the x coordinate of body 0.
     holds: bool,
@@ -64,7 +64,7 @@ impl Whole {
 
     fn force(&self, time: f64, velocity: DVec2) -> DVec2 {
         let Parts { brake, push, turns, .. } = self.parts;
-        let pushed = if time >= push.1 { push.0 } else { 0.0 };
+        let pushed = push.0 * (time - push.1).max(0.0);
         let turned = if self.turned { -turns } else { turns };
         DVec2::new(pushed + turned, 0.0) - brake * velocity
     }
@@ -373,7 +373,7 @@ fn its_edges_end_steps() {
         let parts = Parts { push: (force, from), ..Parts::default() };
         let (mut simulation, _) = load("Dop853", "tick: 0.1,", "", parts);
         simulation.run_to_end().unwrap();
-        let velocity = 3.0 + force * (1.0 - from) / 2.0;
+        let velocity = 3.0 + force * (1.0 - from) * (1.0 - from) / 4.0;
         assert!((simulation.bodies().velocity[0].x - velocity).abs() < 1e-13, "{}", simulation.card());
     }
 }

@@ -14,32 +14,33 @@ impl EventStepper {
     }
 
     /// Shows states of the step from `now` seconds on, inside the tick. If the step ends in the tick, its end is the present state
-    /// before and after.
+    /// afterwards.
     pub(super) fn look_inside(&mut self, tick: &mut Tick, made: &mut Made, now: f64) {
         let (end, until) = (tick.end, made.until.min(tick.end));
         let mut flow = WorldFlow::new(tick);
+        let noted = flow.tick.noted();
+        // A step that was shown at the end of the last tick has left the present state there.
+        let mut is_inside = made.shown.is_some();
         if self.control.is_some() {
-            let length = made.until - made.from;
-            let looks = flow.tick.looks_in(length);
-            let apart = length / looks;
+            let looks = flow.tick.looks_in(made.until - made.from);
+            let apart = (made.until - made.from) / looks;
             // The ends of ticks and steps are looked at too. Two looks at once would leave rounding of their difference.
             let moments = (1..looks as u64).map(|number| made.from + apart * number as f64);
             let moments = moments.filter(|at| at - now > 0.5 * apart && until - at > 0.5 * apart);
-            let moments: Vec<f64> = moments.collect();
-            if !moments.is_empty() {
+            for moment in moments.collect::<Vec<f64>>() {
                 self.make_dense(&mut flow, made);
-                let noted = flow.tick.noted();
-                for moment in moments {
-                    self.show_inside(&mut flow, made, moment);
-                }
-                if made.until <= end {
-                    add(&self.state, &self.rest, &self.work.change, &mut self.work.trial);
-                    flow.write(&self.work.trial);
-                    flow.tick.evaluate_stage(made.until);
-                }
-                flow.tick.forget_trial(noted);
-                flow.tick.recall_bounds();
+                self.show_inside(&mut flow, made, moment);
+                is_inside = true;
             }
+        }
+        if is_inside {
+            if made.until <= end {
+                add(&self.state, &self.rest, &self.work.change, &mut self.work.trial);
+                flow.write(&self.work.trial);
+                flow.tick.evaluate_stage(made.until);
+            }
+            flow.tick.forget_trial(noted);
+            flow.tick.recall_bounds();
         }
         if made.until < end {
             look(&mut flow, made, made.until, &self.work.change);
