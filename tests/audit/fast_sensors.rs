@@ -2,8 +2,8 @@
 //!
 //! Law: a mass on a spring swings as `A cos(w t)`. It passes a gate at `A/2` twice in each period, and crosses zero upwards once. Its speed is
 //! `A w |sin(w t)|`. A thrown body is at height h at `(v -+ sqrt(v^2 - 2 g h))/g`. A body that turns uniformly comes back after
-//! `2 pi/w`. Tolerances: places err by the share that the run states, so times by that share over `w`, and the root of the cubic polynomial by 1e-5 of
-//! a period at most (`inner_looks.rs`) or `(w dt)^3 dt/40` in runs with ticks. Counts are exact: no gate lies where the motion turns.
+//! `2 pi/w`. Tolerances: places err by the share that the run states, so times by that share over `w`. The root of the cubic polynomial
+//! errs by 1e-5 of a period at most (`tick/looks.rs`). In runs with ticks it errs by `(w dt)^3 dt/40`. Counts are exact: no gate lies where the motion turns.
 //!
 //! Not tested: channels that jump within a step.
 
@@ -163,7 +163,7 @@ fn a_body_that_turns_within_a_frame_passes_twice() {
     }
 }
 
-/// A wheel that turns uniformly bounds no step by its error. What turns with it comes back once in each turn.
+/// A wheel that turns uniformly bounds no step by its error. The sine of its angle crosses a value upwards once in each turn.
 #[test]
 fn a_wheel_that_turns_uniformly_is_seen() {
     for turns in [3.3, 77.0] {

@@ -1,4 +1,4 @@
-//! Batches, sensors, layers and frames change no bit of a run: the engine may be asked for any number of ticks at once.
+//! Batches, sensors, layers and frames change no bit of a run.
 //!
 //! Law: a run is a function of its scene. Tolerance: none, hashes are compared. All shipped scenes are run, for as many ticks as twenty
 //! thousand visits of bodies take. With `JOSTLE_WHOLE_BATCHES` set they are run to their ends.

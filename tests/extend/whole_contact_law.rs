@@ -1,9 +1,9 @@
-//! A contact law from outside has every method of a model: the engine calls each of them, and counts what it gives.
+//! A contact law from outside has every method of a model. The engine calls each of them, and counts its results.
 //!
 //! Law: a law that is added by `add_law` is a model like any other. The names of the methods come from the text of the trait. So a
-//! method that is new there is wanted here. Each result has its closed form:
-//! `m v^2/2 (1 - e^(-2 c t/m))` for the account of a brake, `F' (T - t0)^2/(2 m)` for a force that grows from an edge on. A row holds what it says, and
-//! the tick that the engine chooses divides half a swing of the drive into 40. Tolerance: rounding of a thousand ticks, for the brake `(c dt/m)^2`.
+//! method that is new there is wanted here. The closed forms are
+//! `m v^2/2 (1 - e^(-2 c t/m))` for a brake, `F' (T - t0)^2/(2 m)` for a force that grows from an edge on.
+//! A row holds a coordinate. The tick that the engine chooses divides half a swing of the drive into 40. Tolerance: rounding of a thousand ticks, for the brake `(c dt/m)^2`.
 //! Not tested: what laws make of pairs, see `contact_law` and `axis_wise`.
 
 use std::any::Any;

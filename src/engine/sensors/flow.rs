@@ -22,7 +22,7 @@ const QUANTITIES: &[&str] = &["count", "mass", "count.rate", "mass.rate"];
 
 /// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates
 /// over a time window are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes if its centre of mass crosses
-/// the line between the two ends on the smooth way from tick to tick, or from look to look within a step. Left is the left
+/// the line between the two ends. Its way is smooth from tick to tick, or from look to look within a step. Left is the left
 /// hand of a walk from the first end to the second.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]

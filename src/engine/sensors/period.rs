@@ -1,8 +1,8 @@
 //! `Period(name: "swing", of: "hip.angle", crossing: 0)`: how often a channel crosses a value upwards, and how long that takes.
 //!
 //! A channel is known at looks: at ticks, or within each step if steps follow from their errors. A crossing is the root of the cubic
-//! polynomial through the four looks about it. For an oscillation of angular frequency `w` the root is off by some `(w dt)^3 dt/40`
-//! (remainder of interpolation), `dt` the time between looks. The sensor knows a crossing one look later.
+//! polynomial through the four looks about it. For an oscillation of angular frequency `w` and looks every `dt` the root errs by some
+//! `(w dt)^3 dt/40` (remainder of interpolation). The sensor knows a crossing one look later.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;

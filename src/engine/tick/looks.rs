@@ -5,8 +5,8 @@
 //!
 //! Such a step resolves the motion. So does a fixed number of looks in it. `Dop853` spans half a swing in a step at a tolerance of 1e-3, and less
 //! at smaller ones. Sixteen looks then are 0.2 rad apart. The root of a cubic polynomial through four of them is off by `0.2^3/40` of
-//! their distance, so 6e-6 of a period (remainder of interpolation). It falls with the fourth power of the step. A body that turns
-//! uniformly and a drive bound no step by its error, so looks are at most as many radians of these apart.
+//! their distance (remainder of interpolation). That is 6e-6 of a period, and falls with the fourth power of the step. A body that
+//! turns uniformly bounds no step by its error, and neither does a drive. Looks are at most as many radians of these apart.
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
@@ -79,8 +79,8 @@ impl Tick<'_> {
         (length * turns.fold(self.state.fastest_rhythm(), f64::max) / ANGLE).ceil().max(FEWEST)
     }
 
-    /// Before a tick that velocity Verlet makes exactly, because no acceleration changes: the bodies at its beginning, if sensors
-    /// look inside.
+    /// The bodies at the beginning of a tick that velocity Verlet makes exactly, because no acceleration changes. `None` if no sensor
+    /// looks inside.
     pub(super) fn exact_beginning(&self) -> Option<Vec<MotionSample>> {
         let state = &*self.state;
         let exact = !self.mode.is_staged() && state.contact_law().is_none() && !state.changing_forces();

@@ -26,8 +26,8 @@ pub(super) fn integrate(mut state: ResMut<State>) {
     state.note_looks(changed);
 }
 
-/// The system of [`Stage::Integrate`] in runs with systems of users in the tick or in evaluations, or with sensors that look inside
-/// ticks.
+/// The system of [`Stage::Integrate`] in runs with systems of users in the tick or in evaluations. Runs with sensors that look
+/// inside ticks have it too.
 pub(super) fn integrate_among_systems(world: &mut World) {
     let changed = world.resource_ref::<State>().last_changed();
     world.resource_mut::<State>().see_writers(changed);

@@ -58,7 +58,7 @@ impl EventStepper {
     }
 }
 
-/// Lets sensors look at the present state, with the accounts of a moment at which the step has made this change.
+/// Lets sensors look at the present state. The step has made this change until then, of accounts too.
 fn look(flow: &mut WorldFlow, made: &Made, moment: f64, change: &[f64]) {
     let mut booked = change.to_vec();
     if let Some(before) = &made.shown {
