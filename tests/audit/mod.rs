@@ -4,6 +4,7 @@ mod agreement;
 mod crowd;
 mod defects;
 mod draw;
+mod fast_sensors;
 mod impact;
 mod landings;
 mod ran;

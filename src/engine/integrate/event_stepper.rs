@@ -8,6 +8,8 @@
 
 use glam::DVec2;
 
+mod inner_looks;
+
 use super::control::{Allowance, Control, MOST_STEPS};
 use super::event_free_ticks::EventFreeTicks;
 use super::event_overload::EventOverload;
@@ -398,6 +400,7 @@ impl EventStepper {
     fn show(&mut self, tick: &mut Tick, mut made: Made) {
         let end = tick.end;
         let mut flow = WorldFlow::new(tick);
+        self.make_dense(&mut flow, &mut made);
         let mut change = vec![0.0; flow.dimension()];
         self.method.dense((end - made.from) / made.length, &mut change);
         let mut state = Vec::new();
@@ -526,7 +529,7 @@ impl Integrator for EventStepper {
         }
         let mut under_way = self.resume(tick);
         while now < end && !self.overload.follows() {
-            let made = match under_way.take() {
+            let mut made = match under_way.take() {
                 Some(made) => made,
                 None => {
                     if self.located && self.overload.comes(tick, events) {
@@ -544,13 +547,12 @@ impl Integrator for EventStepper {
                     // A step cut short counts, whatever it was for: so a tick comes to its end.
                     events += u32::from(made.cut);
                     part += u32::from(made.until == until && !at_edge);
-                    if made.until > end && !made.dense {
-                        let start = Start { time: made.from, state: &self.state, rates: &self.work.rates };
-                        self.method.make_dense(&mut flow, start, made.length);
-                    }
                     made
                 }
             };
+            if tick.looks_inside() {
+                self.look_inside(tick, &mut made, now);
+            }
             now = made.until.min(end);
             let step = made.until - made.from;
             if self.leads_nowhere(now, end) {

@@ -303,7 +303,7 @@ fn count(
 fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<(), Wrong> {
     let method = described(world, &plan.method)?;
     let mut state = world.resource_mut::<State>();
-    state.clock = Clock { dt: plan.tick, ticks: 0 };
+    state.clock = Clock { dt: plan.tick, ..Clock::default() };
     let stability = &mut state.stability;
     (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
     let Some((made, located)) = method.make(plan.events, plan.pace, plan.detail) else {

@@ -26,7 +26,8 @@ use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::sensors::Channel;
 use crate::threads::Threads;
 use crate::tick::{
-    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, open, rebuild,
+    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, look_inside, open,
+    rebuild,
 };
 use crate::world::hull::MendedShapes;
 use crate::world::{Name, atom};
@@ -384,6 +385,7 @@ pub fn begin(
     }
     let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(world, source, vec![*error]))?;
     if world.contains_resource::<Goal>() {
+        look_inside(world, true);
         look_at_frames(world);
     }
     observe_all(world);

@@ -43,10 +43,12 @@ mod following;
 mod guard;
 pub mod kept;
 pub mod ledger;
+mod looks;
 mod method;
 mod model;
 mod notes;
 mod ode;
+mod outside;
 pub mod pairs;
 mod progress;
 mod registered;
@@ -76,9 +78,10 @@ pub use components::index_of;
 pub use context::Tick;
 pub use differential_equations::{Reach, WorldFlow};
 pub use failure::{Failure, FailureKind};
-pub(crate) use flight_permission::{add_observer_of_ticks, look_at_ticks};
+pub(crate) use flight_permission::{add_observer, look_at_ticks};
 pub use guard::Created;
 pub use ledger::{Ledger, Rates, Totals};
+pub(crate) use looks::{add_inner_looker, look_inside, read_forces_at_ends};
 pub use method::{Integrator, Method};
 pub use model::{
     Bend, Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,

@@ -16,7 +16,7 @@ use jostle_engine::integrate::{Detail, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
-use jostle_engine::tick::State;
+use jostle_engine::tick::{Model, State};
 use jostle_language::numbers::number;
 
 /// Upper bound of the first run's ticks between two ends that its twins share. Then the least number of shared ends.
@@ -97,8 +97,9 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
 /// becomes taut, a joint that breaks, and friction that sticks.
 fn switches_at_ticks(simulation: &Simulation) -> bool {
     let world = simulation.unpublished_world();
-    let mut models = world.resource::<State>().models();
-    !ChosenMethod::locates(world) && models.any(|model| model.has_modes() && model.contact_law().is_none())
+    let state = world.resource::<State>();
+    let switches = |model: &dyn Model| model.has_modes() && state.law_of(model).is_none();
+    !ChosenMethod::locates(world) && state.models().any(switches)
 }
 
 /// The twins that give the error of a finished run.

@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::Simulation;
-use crate::tick::{Clock, Failure, State, add_observer_of_ticks, look_at_ticks};
+use crate::tick::{Clock, Failure, State, add_observer, look_at_ticks, look_inside};
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
@@ -175,6 +175,8 @@ impl Trajectory {
     fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
         let end = simulation.ticks();
         let last = (!end.is_multiple_of(stride)).then_some(end);
+        // The run is made for its motion. Its sensors are not read.
+        look_inside(simulation.world_mut(), false);
         Self::watch(simulation, (1..=end / stride).map(|index| index * stride).chain(last).collect());
         let failure = run(simulation);
         Self::watched(simulation, failure)
@@ -191,7 +193,7 @@ impl Trajectory {
             *there = lookout;
         } else {
             world.insert_resource(lookout);
-            add_observer_of_ticks(world, look);
+            add_observer(world, look);
         }
     }
 
