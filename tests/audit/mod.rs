@@ -6,5 +6,6 @@ mod defects;
 mod draw;
 mod impact;
 mod landings;
+mod letting_go;
 mod ran;
 mod statements;

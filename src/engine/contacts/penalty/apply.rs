@@ -63,6 +63,8 @@ pub struct PenaltyContacts {
     /// The tangential and the rolling spring of each contact at the beginning of an event. They are those that stick,
     /// and those that slip beside a normal force that is not held.
     pub(super) before: Vec<[Option<Slider>; 2]>,
+    /// Contacts whose friction stopped sliding at the last event, and is held for a first try.
+    pub(super) stopped: Vec<u32>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
 }
@@ -88,6 +90,7 @@ impl Default for PenaltyContacts {
             told: Told::default(),
             held_before: None,
             before: Vec::new(),
+            stopped: Vec::new(),
             slid: 0.0,
         }
     }

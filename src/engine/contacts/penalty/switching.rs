@@ -178,6 +178,34 @@ impl View<'_> {
         ledger.friction.add(slid);
     }
 
+    /// Adds rows for those that stop at this event and hold without a spring. So [`stand_still`] takes away the velocity that the
+    /// location of the event left. If they yield again, forces decide the direction, and not the sign of that remainder.
+    pub(super) fn hold_stopped(&mut self, fired: &[usize], rows: &mut Rows) {
+        let mut held = std::mem::take(&mut self.contacts.held);
+        let mut stopped = std::mem::take(&mut self.contacts.stopped);
+        stopped.clear();
+        for &index in fired {
+            let (pair, what) = self.contacts.told[index];
+            if !matches!(what, What::Stop | What::RollingStop) {
+                continue;
+            }
+            let (geometry, bodies) = (self.look(pair as usize), self.bodies);
+            let (contact, law, roller) = self.whole(pair as usize, &geometry);
+            match (what, roller) {
+                (What::Stop, _) if contact.holds_rigidly(law) => {
+                    held.add_tangent(rows, &geometry, law, &contact, bodies);
+                    stopped.push(pair);
+                }
+                (What::RollingStop, Some((slider, rolling_law))) if contact.mode == Mode::Hold => {
+                    let pull = law.stiffness * geometry.overlap;
+                    held.add_rolling(rows, &geometry, rolling_stages::share(slider, &rolling_law, pull), bodies);
+                }
+                _ => {}
+            }
+        }
+        (self.contacts.held, self.contacts.stopped) = (held, stopped);
+    }
+
     /// Notes the springs that stick, or slip beside a normal force that is not held.
     fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
@@ -398,8 +426,7 @@ impl Contact {
                 self.slide(law, self.normal_force);
             }
             What::Stop if self.mode != Mode::Open => {
-                let held = law.exact || self.mode == Mode::Hold;
-                self.tangential.grip = if held { Grip::Hold } else { Grip::Stick };
+                self.tangential.grip = if self.holds_rigidly(law) { Grip::Hold } else { Grip::Stick };
             }
             What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop | What::Border(_) => {}
         }
@@ -415,6 +442,11 @@ impl Contact {
         if slider.grip == Grip::Stick {
             slider.held = 0.0_f64.copysign(geometry.sliding(law.shares()));
         }
+    }
+
+    /// Whether friction holds without a spring as soon as the sides stop: at rest along the normal, or if it has none.
+    fn holds_rigidly(&self, law: &PairLaw) -> bool {
+        law.exact || self.mode == Mode::Hold
     }
 
     /// While it slips: the force along the surface under a normal force, in the direction it has.
