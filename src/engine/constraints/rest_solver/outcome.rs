@@ -79,12 +79,14 @@ impl Found<'_> {
         let stood = before.abs() <= self.noise() * row.mobility * self.dt;
         // At rest along the normal friction is dry. A spring that slipped would swing back if the sliding turns round.
         let turns = self.contact.engaged && drawn.phase == SpringPhase::Slips && drawn.force * velocity > 0.0;
+        // A force along the motion has not converged.
+        let yields = drawn.phase == SpringPhase::Holds && (against || !engaged);
         let friction = if drawn.phase == SpringPhase::Slides || against && stood {
             FrictionOutcome::Slides(-velocity)
         } else if against && velocity.abs() < before.abs() {
             // It brakes without stopping. So friction that could hold a body catches a sudden motion within some ticks.
             FrictionOutcome::Holds(force)
-        } else if drawn.phase == SpringPhase::Holds || turns {
+        } else if yields || turns {
             FrictionOutcome::Slides(-velocity)
         } else if self.contact.engaged {
             FrictionOutcome::Stays

@@ -17,11 +17,12 @@
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
-use super::coulomb::{Grip, Slider, SliderLaw};
+use super::coulomb::{Grip, ROUNDING, Slider, SliderLaw};
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
+use crate::constraints::islands::IslandLink;
 use crate::constraints::{Booking, LostTo, Rows};
 use crate::contacts::Touches;
 use crate::contacts::geometry::{PairGeometry, SideA};
@@ -204,6 +205,36 @@ impl View<'_> {
             }
         }
         (self.contacts.held, self.contacts.stopped) = (held, stopped);
+    }
+
+    /// Contacts beside one that stopped stop with it, if they slide without a spring and have no velocity left. Rounding decides
+    /// which of them the event names.
+    pub(super) fn stop_together(&mut self) {
+        let mut stopped = std::mem::take(&mut self.contacts.stopped);
+        let named = stopped.len();
+        for index in 0..if named == 0 { 0 } else { self.len() } {
+            let geometry = self.look(index);
+            let (contact, law, _) = self.whole(index, &geometry);
+            let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
+            let stands = geometry.sliding(law.shares()).abs() <= ROUNDING * geometry.speed(law.shares());
+            drop(contact);
+            let beside = |&other: &u32| self.shares_body(index, other as usize);
+            if slides && stands && !stopped.contains(&(index as u32)) && stopped[..named].iter().any(beside) {
+                self.contact(index).0.tangential.grip = Grip::Hold;
+                stopped.push(index as u32);
+            }
+        }
+        self.contacts.stopped = stopped;
+    }
+
+    /// Whether two contacts are of one body that moves by forces.
+    fn shares_body(&self, one: usize, other: usize) -> bool {
+        let of = |index: usize| {
+            let pair = self.look(index).pair;
+            [Some(pair.b.body), pair.other_body()].map(|body| body.filter(|&body| self.bodies.dynamic[body]))
+        };
+        let (one, other) = (of(one), of(other));
+        one.iter().flatten().any(|body| other.contains(&Some(*body)))
     }
 
     /// Notes the springs that stick, or slip beside a normal force that is not held.
@@ -444,7 +475,7 @@ impl Contact {
         }
     }
 
-    /// Whether friction holds without a spring as soon as the sides stop: at rest along the normal, or if it has none.
+    /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
     fn holds_rigidly(&self, law: &PairLaw) -> bool {
         law.exact || self.mode == Mode::Hold
     }
