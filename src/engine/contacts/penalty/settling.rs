@@ -44,7 +44,7 @@ impl View<'_> {
         corrected
     }
 
-    /// Lets friction slide on that was held for a first try beyond its cone, if a normal force leaves its bounds. A friction without
+    /// Lets friction slide on that was tried as held beyond its cone, if a normal force leaves its bounds. A friction without
     /// a bound makes normal forces that the real one does not. Says whether there was any.
     fn settle_stopped<N: NormalForce>(&mut self) -> bool {
         if self.contacts.stopped.is_empty() || !(0..self.len()).any(|index| self.is_out_of_band::<N>(index)) {
