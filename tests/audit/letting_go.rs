@@ -14,10 +14,10 @@
 
 use std::fmt::Write;
 
+use jostle::Simulation;
 use jostle::problems::hard::golden;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::{Simulation, SimulationExt};
 
 const GRAVITY: f64 = 9.81;
 /// Tangential over normal stiffness of the default law.
@@ -72,13 +72,15 @@ fn slider(load: impl Fn(f64) -> f64, (static_, dynamic): Coefficients, velocity:
                 motion.events += 1;
                 continue;
             }
-            let after = |share: f64| advance(&load, (now, share * left), -slips * sign, motion.velocity);
+            let before = motion.velocity;
+            let after = |share: f64| advance(&load, (now, share * left), -slips * sign, before);
             let turned = |share: f64| after(share).0 * sign < 0.0;
-            let share = if turned(1.0) { first_share(turned) } else { 1.0 };
+            let turns = turned(1.0);
+            let share = if turns { first_share(turned) } else { 1.0 };
             let (velocity, way) = after(share);
             motion.way += way;
             motion.velocity = velocity;
-            if turned(1.0) {
+            if turns {
                 now += share * left;
                 motion.velocity = 0.0;
                 motion.events += 1;

@@ -150,6 +150,11 @@ impl Slider {
         short
     }
 
+    /// Whether it held `before` and slides now. Forces have chosen its direction, and its velocity is a rounding remainder.
+    pub(super) fn yielded(&self, before: Option<Self>) -> bool {
+        self.grip == Grip::Slide && before.is_some_and(|before| before.grip == Grip::Hold)
+    }
+
     /// Lets a spring swing back that stuck `before`, and was tried as held at its turning point. Returns whether it
     /// did.
     pub(super) fn swing_back(&mut self, before: Option<Self>) -> bool {

@@ -138,13 +138,14 @@ impl View<'_> {
                 // A spring that gives has its new elongation once it was evaluated.
                 corrected |= slider.settle_jump(&law.tangential(), before[0], motion.0)
                     || slider.settle_force(&law.tangential(), base, before[0])
-                    || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
+                    || !(law.exact || slider.yielded(before[0]))
+                        && slider.settle_motion(&law.tangential(), base, motion);
             }
             if let Some((slider, law)) = roller.filter(|(slider, _)| which(slider.grip)) {
                 let motion = (geometry.turning(), geometry.turning_speed());
                 corrected |= slider.settle_jump(&law, before[1], motion.0)
                     || slider.settle_force(&law, base, before[1])
-                    || slider.settle_motion(&law, base, motion);
+                    || !slider.yielded(before[1]) && slider.settle_motion(&law, base, motion);
             }
         }
         self.contacts.before = springs;

@@ -161,6 +161,7 @@ impl View<'_> {
         let slid = self.close_slides();
         // Energy that springs held before and lose by the change is lost. It is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
+        self.stop_together();
         self.note_springs();
         for &index in fired {
             let (pair, what) = self.contacts.told[index];
@@ -209,9 +210,12 @@ impl View<'_> {
 
     /// Contacts beside one that stopped stop with it, if they slide without a spring and have no velocity left. Rounding decides
     /// which of them the event names.
-    pub(super) fn stop_together(&mut self) {
+    fn stop_together(&mut self) {
         let mut stopped = std::mem::take(&mut self.contacts.stopped);
         let named = stopped.len();
+        for &index in &stopped {
+            self.contact(index as usize).0.tangential.grip = Grip::Hold;
+        }
         for index in 0..if named == 0 { 0 } else { self.len() } {
             let geometry = self.look(index);
             let (contact, law, _) = self.whole(index, &geometry);
@@ -237,7 +241,7 @@ impl View<'_> {
         one.iter().flatten().any(|body| other.contains(&Some(*body)))
     }
 
-    /// Notes the springs that stick, or slip beside a normal force that is not held.
+    /// Notes the springs that hold or stick, or slip beside a normal force that is not held.
     fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
@@ -245,7 +249,7 @@ impl View<'_> {
             let geometry = self.look(index);
             let (contact, law, roller) = self.whole(index, &geometry);
             let noted = |slider: &Slider| match (contact.mode, slider.grip) {
-                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Hold | Grip::Slip) => None,
+                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Slip) => None,
                 _ => Some(*slider),
             };
             let tangential = if law.exact { None } else { noted(&contact.tangential) };

@@ -90,7 +90,6 @@ impl<N: NormalForce> Events for Contacts<N> {
         View { bodies, pairs, contacts, rolling: rolling.as_mut() }.hold_stopped(fired, rows);
         switching::stand_still((bodies, ledger, rows), contacts, clock.dt);
         let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
-        view.stop_together();
         view.switch::<N>(fired, ledger, touches.as_mut());
         features::cross(fired, (bodies, pairs), contacts, rolling.as_mut());
     }
