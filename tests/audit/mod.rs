@@ -7,6 +7,7 @@ mod draw;
 mod fast_sensors;
 mod impact;
 mod landings;
+mod letting_go;
 mod ran;
 mod releases;
 mod statements;

@@ -219,6 +219,15 @@ impl Prescribed {
         self.motions.iter().map(next).filter(|&point| point > time).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether the path of body `body` leads on: its motion is prescribed, and changes now or later.
+    pub fn leads_on(&self, body: usize) -> bool {
+        let index = self.motions.binary_search_by_key(&body, |motion| motion.0);
+        index.is_ok_and(|index| {
+            let motion = &self.motions[index].1;
+            motion.path.next_point(self.time - motion.since).is_finite()
+        })
+    }
+
     /// The state of body `body` in `ahead` seconds, if its motion is prescribed.
     pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
         let index = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
