@@ -62,6 +62,8 @@ pub struct Judged {
     pub finds: Vec<Find>,
     /// For each way whose statement can be judged: the error over the stated one, and whether the verdict trusts it.
     pub statements: Vec<(String, f64, bool)>,
+    /// The verdict of each way, or why there is none.
+    pub verdicts: Vec<(String, String)>,
     /// The number of runs.
     pub runs: u64,
     /// Runs that the engine refuses or that fail.
@@ -104,11 +106,12 @@ pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance) -> Jud
         match guarded(|| run(text, &way.overrides, most)) {
             Err(panic) => judged.found(Kind::Panics, &way.name, panic),
             Ok(Outcome::Refused(why)) => {
-                let _ = why;
                 judged.refused += 1;
+                judged.verdicts.push((way.name, why));
             }
             Ok(Outcome::Failed(why)) => {
                 judged.refused += 1;
+                judged.verdicts.push((way.name.clone(), why.clone()));
                 failed.push((way.name, why));
             }
             Ok(Outcome::Long) => judged.found(Kind::Long, &way.name, format!("more than {most} evaluations")),
@@ -116,6 +119,7 @@ pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance) -> Jud
             Ok(Outcome::Ran(run)) => {
                 judged.evaluations += run.evaluations;
                 judged.silent += u64::from(!run.states());
+                judged.verdicts.push((way.name.clone(), run.verdict.clone()));
                 ran.push((way, run));
             }
         }

@@ -56,6 +56,9 @@ struct Flags {
     /// Judge this file instead of scenes of chance
     #[arg(long)]
     only: Option<PathBuf>,
+    /// The ways to compare, as they are printed; default: all
+    #[arg(long)]
+    ways: Vec<String>,
     /// Seconds of processor time to make a find smaller
     #[arg(long, default_value_t = 0)]
     smaller: u64,
@@ -78,7 +81,10 @@ fn main() -> ExitCode {
             say!("{} cannot be read", file.display());
             return ExitCode::from(2);
         };
-        let judged = judge(&text, &[], MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0));
+        let judged = judge(&text, &flags.ways, MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0));
+        for (way, verdict) in &judged.verdicts {
+            say!("{way}: {verdict}");
+        }
         tell(&judged);
         return ExitCode::from(if judged.finds.is_empty() { 0 } else { EXIT_FOUND });
     }
