@@ -88,8 +88,8 @@ fn default_tick(text: &str) -> Option<f64> {
     Some(simulation.clock().dt)
 }
 
-/// Runs a scene in all ways, or in those named, and compares the runs.
-pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance) -> Judged {
+/// Runs a scene in all ways, or in those named, and compares the runs. Each way is told before it begins.
+pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance, tell: impl Fn(&str)) -> Judged {
     let mut judged = Judged::default();
     let tick = match guarded(|| default_tick(text)) {
         Ok(Some(tick)) => tick,
@@ -103,6 +103,7 @@ pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance) -> Jud
     let (mut ran, mut failed): (Vec<(Way, Box<Ran>)>, Vec<(String, String)>) = Default::default();
     for way in ways {
         judged.runs += 1;
+        tell(&way.name);
         match guarded(|| run(text, &way.overrides, most)) {
             Err(panic) => judged.found(Kind::Panics, &way.name, panic),
             Ok(Outcome::Refused(why)) => {
@@ -129,6 +130,7 @@ pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance) -> Jud
             judged.found(Kind::Fails, &way, why);
         }
     }
+    tell("in pieces");
     judged.bits(text, &ran, chance);
     judged.compare(&ran);
     judged

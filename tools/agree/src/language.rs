@@ -49,10 +49,11 @@ impl Language {
         &self.schema["properties"][name]
     }
 
-    /// The schema of an item of a section that is a list.
-    pub fn item(&self, section: &str) -> &Value {
-        let (_, list) = self.resolve(self.section(section));
-        item(list)
+    /// The schema of an entry of a section that takes several kinds.
+    pub fn kind(&self, section: &str, kind: &str) -> &Value {
+        let (_, about) = self.resolve(self.section(section));
+        let kinds = if about["type"] == "array" { item(about) } else { alternatives(about)[0] };
+        &kinds["properties"][kind]
     }
 }
 

@@ -81,7 +81,7 @@ fn main() -> ExitCode {
             say!("{} cannot be read", file.display());
             return ExitCode::from(2);
         };
-        let judged = judge(&text, &flags.ways, MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0));
+        let judged = judge(&text, &flags.ways, MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0), |_| {});
         for (way, verdict) in &judged.verdicts {
             say!("{way}: {verdict}");
         }
@@ -126,7 +126,10 @@ fn child(flags: &Flags, number: u64) {
         say!("drawn\t{section}\t{all}\t{refused}");
     }
     let chance = || Chance::new(flags.seed ^ 0x5eed, number);
-    let judged = judge(&drawn.text(), &[], MOST_EVALUATIONS, &mut chance());
+    let judged = judge(&drawn.text(), &flags.ways, MOST_EVALUATIONS, &mut chance(), |way| {
+        // The last line of a child that is ended.
+        say!("at\t{way}");
+    });
     tell(&judged);
     let (Some(folder), Some(gravest)) = (&flags.out, judged.finds.iter().max_by_key(|find| find.kind)) else { return };
     let text = if flags.smaller > 0 { written_scene(&small(flags, &drawn, &judged)) } else { drawn.text() };
@@ -144,7 +147,8 @@ fn child(flags: &Flags, number: u64) {
 fn small(flags: &Flags, drawn: &Drawn, judged: &Judged) -> Vec<(String, jostle_agree::written::Written)> {
     let Some(gravest) = judged.finds.iter().max_by_key(|find| find.kind) else { return drawn.sections.clone() };
     minimise(drawn.sections.clone(), Duration::from_secs(flags.smaller), |sections| {
-        let judged = judge(&written_scene(sections), &[], MOST_EVALUATIONS, &mut Chance::new(flags.seed ^ 0x5eed, 0));
+        let judged =
+            judge(&written_scene(sections), &[], MOST_EVALUATIONS, &mut Chance::new(flags.seed ^ 0x5eed, 0), |_| {});
         judged
             .finds
             .iter()
@@ -188,11 +192,15 @@ fn hunt(flags: &Flags) -> std::io::Result<bool> {
         }
         let output = child.output()?;
         sums.scenes += 1;
-        for line in String::from_utf8_lossy(&output.stdout).lines() {
-            sums.add(number, line);
+        let (told, mut last) = (String::from_utf8_lossy(&output.stdout), "");
+        for line in told.lines() {
+            match line.strip_prefix("at\t") {
+                Some(way) => last = way,
+                None => sums.add(number, line),
+            }
         }
         if !output.status.success() {
-            say!("{number}\tEndless: {} after {} s of processor time", output.status, flags.patience);
+            say!("{number}\tEndless: {last}: {} after {} s of processor time", output.status, flags.patience);
             *sums.finds.entry("Endless".to_owned()).or_default() += 1;
         }
     }

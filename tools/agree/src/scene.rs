@@ -22,7 +22,7 @@ pub const MOMENT: f64 = 0.01;
 /// The gap in m at which bodies touch.
 const TOUCH: f64 = 1e-12;
 /// Steps of a body that is put down, at most.
-const STEPS: usize = 80;
+const STEPS: usize = 20;
 
 /// A body for a scene that has none yet.
 const PROBE: &str = "bodies: [(name: \"probe\", at: (0, 1), atoms: Disc(radius: 0.1))], ";
@@ -362,7 +362,7 @@ impl Maker<'_> {
             let Some((mut body, mut fields)) = self.walk(&name, |walk| walk.definition("Body", example)) else {
                 continue;
             };
-            let lie = grounded && self.chance.happens(0.7);
+            let lie = grounded && self.chance.happens(0.8);
             if let Some(material) = self.chance.pick(&self.names.materials).cloned() {
                 body.set("material", Written::text(&material));
             }
@@ -411,7 +411,9 @@ impl Maker<'_> {
     /// The place of a body above or on all others.
     fn place(&mut self, body: &Written, name: &str, x: f64, lie: bool) -> Option<Written> {
         let others: Vec<String> = self.names.bodies.iter().chain(&self.names.walls).cloned().collect();
-        let mut height = if lie { 2.0 } else { self.chance.between(0.2, 1.0) };
+        let mut height = if lie { 2.0 } else { self.chance.between(0.1, 0.7) };
+        // The height before and its gap, for steps of a secant.
+        let mut before: Option<(f64, f64)> = None;
         for _ in 0..STEPS {
             let mut body = body.clone();
             body.set("at", Written::pair(x, height));
@@ -419,15 +421,17 @@ impl Maker<'_> {
             if !lie {
                 return (gap > 0.0).then(|| Written::pair(x, height));
             }
-            if gap < TOUCH {
+            if gap.abs() < TOUCH {
                 return Some(Written::pair(x, height));
             }
-            height -= gap;
+            let slope = before.map_or(1.0, |(above, other)| (above - height) / (other - gap));
+            before = Some((height, gap));
+            height -= gap * if slope.is_finite() { slope.clamp(1.0, 10.0) } else { 1.0 };
             if !(height > -2.0 && height.is_finite()) {
                 return None;
             }
         }
-        Some(Written::pair(x, height))
+        None
     }
 
     /// The least distance of a body from all others, in m; `None` if the reader refuses the scene.
@@ -461,8 +465,10 @@ impl Maker<'_> {
             let Some(kind) = self.chance.pick(&kinds).cloned() else { return };
             let name = format!("{section}{}", self.items(section));
             let Some((mut entry, mut fields)) = self.walk(&name, |walk| walk.entry(section, &kind)) else { continue };
-            if fields.iter().any(|path| path.ends_with(".anchor_a")) || section == "joints" && self.chance.happens(0.5)
-            {
+            let anchors = fields.iter().any(|path| path.ends_with(".anchor_a"));
+            if self.has(section, &kind, "length") {
+                self.hang(&mut entry, &kind, &mut fields);
+            } else if anchors || section == "joints" && self.chance.happens(0.5) {
                 self.close(&mut entry, &kind, &mut fields);
             }
             let sections = self.with(section, &entry);
@@ -475,10 +481,29 @@ impl Maker<'_> {
         }
     }
 
+    /// Whether an entry has a field.
+    fn has(&self, section: &str, kind: &str, field: &str) -> bool {
+        let schema = self.language.kind(section, kind);
+        self.language.resolve(schema).1["properties"].get(field).is_some()
+    }
+
+    /// Lets what has a length end at a place of the world away from its body.
+    fn hang(&mut self, entry: &mut Written, kind: &str, fields: &mut BTreeSet<String>) {
+        for (end, other, anchor) in [("a", "b", "anchor_a"), ("b", "a", "anchor_b")] {
+            let is_world = entry.field(end).and_then(Written::word) == Some("World");
+            let body = entry.field(other).and_then(Written::word).and_then(|body| self.pose(body));
+            if let (true, Some((x, y, _))) = (is_world, body) {
+                let (dx, dy) = (self.chance.between(-0.4, 0.4), self.chance.between(0.1, 0.6));
+                entry.set(anchor, Written::pair(x + dx, y + dy));
+                fields.insert(format!("{kind}.{anchor}"));
+            }
+        }
+    }
+
     /// Whether an entry has times or a course in time.
     fn changes(&self, section: &str, kind: &str) -> bool {
         let mut fields = BTreeSet::new();
-        possible(self.language, &self.language.item(section)["properties"][kind], kind, &mut fields);
+        possible(self.language, self.language.kind(section, kind), kind, &mut fields);
         fields.iter().any(|path| path.starts_with("Course|") || path.ends_with(".from") || path.ends_with(".to"))
     }
 

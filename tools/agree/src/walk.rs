@@ -87,9 +87,7 @@ impl Walk<'_> {
     /// An entry of a section that takes several kinds, such as a force: `Drag(..)`. `None` if the scene has nothing to
     /// which it could refer.
     pub fn entry(&mut self, section: &str, name: &str) -> Option<Written> {
-        let (_, about) = self.language.resolve(self.language.section(section));
-        let kinds = if about["type"] == "array" { item(about) } else { alternatives(about).first().copied()? };
-        let schema = kinds["properties"].get(name)?;
+        let schema = self.language.kind(section, name);
         let example = self.language.examples.get(&format!("{section}.{name}")).cloned().unwrap_or_default();
         self.drawn.insert(format!("{section}|{name}"));
         let inner = self.value(schema, &Place::new(section, name, example))?;
@@ -100,6 +98,12 @@ impl Walk<'_> {
     pub fn definition(&mut self, name: &str, example: Value) -> Option<Written> {
         let schema = serde_json::json!({ "$ref": format!("#/$defs/{name}") });
         self.value(&schema, &Place::new(name, "", example))
+    }
+
+    /// A whole section that takes no kinds of entries.
+    pub fn section(&mut self, name: &str) -> Option<Written> {
+        let example = self.language.examples.get(name).cloned().unwrap_or_default();
+        self.value(self.language.section(name), &Place::new(name, "", example))
     }
 
     fn value(&mut self, schema: &Value, place: &Place) -> Option<Written> {
@@ -142,6 +146,10 @@ impl Walk<'_> {
         }
         if let Some(parts) = about["prefixItems"].as_array() {
             return self.tuple(parts, &place);
+        }
+        if about["additionalProperties"].is_object() {
+            let value = self.value(&about["additionalProperties"], &place)?;
+            return Some(Written::Map(vec![("m".to_owned(), value)]));
         }
         match type_of(about) {
             "array" => self.list(about, &place),
