@@ -6,5 +6,6 @@ mod defects;
 mod draw;
 mod impact;
 mod landings;
+mod other_kind;
 mod ran;
 mod statements;
