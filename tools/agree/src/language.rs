@@ -61,9 +61,10 @@ impl Language {
 pub fn alternatives(schema: &Value) -> Vec<&Value> {
     let Some(several) = schema["anyOf"].as_array() else { return vec![schema] };
     let is_made = |part: &Value| part["$ref"] == "#/$defs/Repeated";
-    let structures = several.iter().filter(|part| part["type"] != "string").count();
-    let written = several.iter().filter(|part| !is_made(part) && (structures == 0 || part["type"] != "string"));
-    written.collect()
+    let is_text = |part: &Value| part["type"] == "string";
+    let written: Vec<&Value> = several.iter().filter(|part| !is_made(part)).collect();
+    let structures = written.iter().any(|part| !is_text(part));
+    written.into_iter().filter(|part| !(structures && is_text(part))).collect()
 }
 
 /// The schema of the items of a list.

@@ -97,7 +97,7 @@ pub fn scene(language: &Language, (seed, number): (u64, u64), longest: f64) -> D
     for _ in 0..bodies {
         maker.body(grounded);
     }
-    let (forces, joints) = (1 + maker.chance.below(2), maker.chance.below(3));
+    let (forces, joints) = (1 + maker.chance.below(2), maker.chance.below(8).saturating_sub(4));
     for _ in 0..joints {
         maker.entry("joints");
     }
@@ -460,6 +460,10 @@ impl Maker<'_> {
         // Loads that change are the harder ones.
         if section == "forces" && self.chance.happens(0.6) {
             kinds.retain(|kind| self.changes(section, kind));
+        }
+        // What couples joints needs two of them.
+        if section == "joints" && self.names.joints.len() > 1 && self.chance.happens(0.7) {
+            kinds.retain(|kind| !self.has(section, kind, "a"));
         }
         for _ in 0..TRIES {
             let Some(kind) = self.chance.pick(&kinds).cloned() else { return };

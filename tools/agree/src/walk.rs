@@ -218,6 +218,13 @@ impl Walk<'_> {
             let told = if same { place.told.clone() } else { String::new() };
             let inner = Place { example, told, directed: same && !is_range, ..place.clone() };
             let mut value = self.value(part, &inner)?;
+            // A vector of length zero does nothing.
+            while inner.directed
+                && index > 0
+                && [written.last(), Some(&value)].iter().all(|part| part.and_then(Written::number) == Some(0.0))
+            {
+                value = self.value(part, &inner)?;
+            }
             if let (true, Some(number)) = (is_range, value.number()) {
                 value = Written::exactly(if index == 0 { -number.abs() } else { number.abs() });
             }
@@ -255,7 +262,7 @@ impl Walk<'_> {
     fn number(&mut self, dimension: &str, place: &Place) -> Written {
         if dimension == "time" {
             let step = if place.told.contains("Default: 0.") { 0.1 } else { 0.3 };
-            let after = place.after.unwrap_or(0.0);
+            let (after, step) = place.after.map_or((0.0, 2.0 * step), |after| (after, step));
             return Written::rounded(after + self.chance.between(0.02, step) * self.duration);
         }
         Written::rounded(self.plain(dimension, place))
