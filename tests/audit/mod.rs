@@ -8,6 +8,7 @@ mod fast_sensors;
 mod impact;
 mod landings;
 mod letting_go;
+mod other_kind;
 mod ran;
 mod releases;
 mod statements;

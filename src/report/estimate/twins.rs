@@ -5,14 +5,15 @@
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
 //! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
 //! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
-//! except for one in ten of the first run.
+//! except for one in ten of the first run. Where contacts carried loads that change, one twin is of the other kind
+//! (`other_kind.rs`).
 
 use super::growth::{Growth, Seen};
 use super::work::{self, Patience, TooLong};
-use super::{Repeated, moments, touches};
+use super::{Repeated, moments, other_kind, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, StepPace};
+use jostle_engine::integrate::{Detail, EventTiming, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -32,17 +33,31 @@ pub(super) struct Finer {
     pub of: u32,
     /// Equal parts of each step, and parts of the angle over which contacts swing in one.
     pub parts: u32,
+    /// Whether a method with located events makes it, unlike the first run.
+    pub located: bool,
 }
+
+/// The method of twins with located events in place of velocity Verlet, and the evaluations of a step beside those of
+/// its stages: it has four, and looks for events in between.
+const LOCATED: &str = "RungeKutta4";
+const EVALUATIONS: f64 = 5.0;
 
 impl Finer {
     /// The same run once more.
-    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1 };
+    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, located: false };
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
+    /// With the same tick by a method with located events.
+    pub const LOCATED: Self = Self { located: true, ..Self::SAME };
 
     /// The factor by which its steps are shorter.
     pub fn steps(self) -> f64 {
         f64::from(self.ticks * self.parts) / f64::from(self.of)
+    }
+
+    /// Its work over that of the first run.
+    pub fn work(self) -> f64 {
+        self.steps() * if self.located { EVALUATIONS } else { 1.0 }
     }
 
     /// Whether a tick of the twin ends with tick `tick` of the first run.
@@ -55,8 +70,12 @@ impl Finer {
         tick / u64::from(self.of) * u64::from(self.ticks)
     }
 
-    /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step.
+    /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step. That of
+    /// a twin with located events is of a higher order.
     pub fn left(self, order: f64) -> f64 {
+        if self.located {
+            return 1.0;
+        }
         1.0 / (1.0 - libm::pow(self.steps(), -order))
     }
 
@@ -69,7 +88,11 @@ impl Finer {
             looks: plan.detail.looks,
             swing: plan.detail.swing / f64::from(if self.ticks > 1 { self.parts } else { 1 }),
         };
-        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, ..plan })
+        let (method, events) = match self.located {
+            true => (LOCATED.to_owned(), EventTiming::Located),
+            false => (plan.method.clone(), plan.events),
+        };
+        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, method, events, ..plan })
     }
 }
 
@@ -116,16 +139,26 @@ pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
         // The same ticks, and so the same steps from event to event, in halves; and others.
         (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
         (true, false) => {
-            let [first, second] = cycles_of(simulation);
-            let twin = |times: u32, of: u32| Finer { ticks: times * of + u32::from(of > 1), of, parts: 1 };
-            vec![twin(2, first), twin(3, second)]
+            let first = by_ticks(2, cycles_of(simulation)[0]);
+            let second = if other_kind::carried(simulation) { Finer::LOCATED } else { second_by_ticks(simulation) };
+            vec![first, second]
         }
     }
 }
 
+/// A twin with ticks more than `times` as short, which end elsewhere except for one in `of`.
+fn by_ticks(times: u32, of: u32) -> Finer {
+    Finer { ticks: times * of + u32::from(of > 1), of, ..Finer::SAME }
+}
+
+/// The second twin of a run from tick to tick.
+pub(super) fn second_by_ticks(simulation: &Simulation) -> Finer {
+    by_ticks(3, cycles_of(simulation)[1])
+}
+
 /// The work of twins, over that of the first run.
 pub(super) fn work(twins: &[Finer]) -> f64 {
-    twins.iter().map(|twin| twin.steps()).sum()
+    twins.iter().map(|twin| twin.work()).sum()
 }
 
 /// Looks at another run, so much finer, at the moments of the first, until the end of its tick `until`.
@@ -150,6 +183,18 @@ pub(super) fn run(
         Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
         Err(TooLong) => None,
     })
+}
+
+/// The same by located events. `None` also if the scene does not permit that, if the twin fails, or if some of its ticks
+/// held too many events to locate.
+pub(super) fn run_located(
+    first: &Simulation,
+    how: (Finer, u64),
+    patience: Option<Patience>,
+    scene: &Repeated,
+) -> Option<(Trajectory, Simulation)> {
+    let made = run(first, how, patience, scene).ok().flatten();
+    made.filter(|(twin, _)| twin.failure.is_none() && !twin.overloaded)
 }
 
 /// The results of twins on the error of a run.

@@ -53,7 +53,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// All causes, in such an order that the first explains later ones.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 19] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 20] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -64,6 +64,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 19] = [
     ticks::unseen_swing,
     energy::unaccounted,
     energy::given_back,
+    trajectory_error::contradicted,
     trajectory_error::tolerance_not_reached,
     overlap::deep,
     ticks::brief_contact,

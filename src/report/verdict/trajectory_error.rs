@@ -4,7 +4,7 @@
 use super::{Cause, Evidence, Trust, VerdictPart, at, of_the_way};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::State;
-use jostle_language::numbers::number;
+use jostle_language::numbers::{number, rough};
 
 /// A smaller error of places, as a share of how far bodies go, is no cause for doubt.
 const INEXACT: f64 = 1e-2;
@@ -76,6 +76,18 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
         what: why,
         remedy: Some(format!("`--tick {}`{whether}{tolerance}", number(tick))),
     })
+}
+
+/// Runs of the other kind contradict the run: at most one of both is right.
+pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
+    let elsewhere = evidence.world.get_resource::<EstimatedError>()?.elsewhere?;
+    let what = format!(
+        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of both runs is right",
+        number(elsewhere.tick),
+        at(elsewhere.since),
+        rough(elsewhere.distance)
+    );
+    Some(Cause { trust: Trust::ButNot(VerdictPart::Places), what, remedy: None })
 }
 
 /// Stiffer contacts lead elsewhere.
