@@ -12,7 +12,7 @@ use super::work::{self, Patience, TooLong};
 use super::{Repeated, moments, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, StepPace};
+use jostle_engine::integrate::{Detail, ORDER, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -32,17 +32,21 @@ pub(super) struct Finer {
     pub of: u32,
     /// Equal parts of each step, and parts of the angle over which contacts swing in one.
     pub parts: u32,
+    /// The share of the allowed error, where the length of steps follows from it.
+    pub allowed: f64,
 }
 
 impl Finer {
     /// The same run once more.
-    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1 };
+    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, allowed: 1.0 };
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
+    /// With a tenth of the error allowed to a step.
+    const TENTH: Self = Self { allowed: 0.1, ..Self::SAME };
 
     /// The factor by which its steps are shorter.
     pub fn steps(self) -> f64 {
-        f64::from(self.ticks * self.parts) / f64::from(self.of)
+        f64::from(self.ticks * self.parts) / f64::from(self.of) * libm::pow(self.allowed, -1.0 / ORDER)
     }
 
     /// Whether a tick of the twin ends with tick `tick` of the first run.
@@ -57,12 +61,16 @@ impl Finer {
 
     /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step.
     pub fn left(self, order: f64) -> f64 {
-        1.0 / (1.0 - libm::pow(self.steps(), -order))
+        if self.allowed < 1.0 { 1.0 / (1.0 - self.allowed) } else { 1.0 / (1.0 - libm::pow(self.steps(), -order)) }
     }
 
-    /// The plan of such a run; nothing, where steps are as long as their error allows.
+    /// The plan of such a run; nothing, if it would be no finer than the first.
     pub fn plan(self, simulation: &Simulation) -> Option<Plan> {
         let plan = simulation.plan()?.clone();
+        if let StepPace::Allowed(allowance) = plan.pace {
+            let pace = StepPace::Allowed(allowance.with_share(self.allowed * allowance.share));
+            return (self.allowed < 1.0).then_some(Plan { pace, ..plan });
+        }
         let tick = plan.tick * f64::from(self.of) / f64::from(self.ticks);
         let detail = Detail {
             parts: plan.detail.parts * self.parts,
@@ -104,6 +112,9 @@ fn switches_at_ticks(simulation: &Simulation) -> bool {
 /// The twins that give the error of a finished run.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
+    if simulation.plan().and_then(Plan::allowed).is_some() {
+        return vec![Finer::TENTH];
+    }
     let located = ChosenMethod::locates(world);
     let jumped = if located {
         world.resource::<State>().located().count > 0
@@ -116,7 +127,7 @@ pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
         (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
         (true, false) => {
             let [first, second] = cycles_of(simulation);
-            let twin = |times: u32, of: u32| Finer { ticks: times * of + u32::from(of > 1), of, parts: 1 };
+            let twin = |times: u32, of: u32| Finer { ticks: times * of + u32::from(of > 1), of, ..Finer::SAME };
             vec![twin(2, first), twin(3, second)]
         }
     }
@@ -142,7 +153,10 @@ pub(super) fn run(
 ) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
     let Some(plan) = finer.plan(first) else { return Ok(None) };
     let steps = if finer.parts > 1 { format!(" and steps in {} parts", finer.parts) } else { String::new() };
-    let what = format!("once more with a tick of {} s{steps}, for its error", number(plan.tick));
+    let what = match finer.allowed {
+        1.0 => format!("once more with a tick of {} s{steps}, for its error", number(plan.tick)),
+        share => format!("once more with {share} of the error allowed to a step, for its error"),
+    };
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
     Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience) {

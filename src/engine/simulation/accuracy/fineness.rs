@@ -20,9 +20,6 @@ pub(super) enum Ladder {
     Ticks,
 }
 
-/// The power of the step by which errors of the methods that estimate them fall.
-const ORDER: f64 = 8.0;
-
 /// The steps between two readings of a trial. The steps are those that suit the fastest contact or spring: eight
 /// readings to a contact.
 const STEPS_BETWEEN_LOOKS: u32 = 5;
@@ -129,14 +126,11 @@ impl<'a> Trials<'a> {
         match self.ladder {
             Ladder::Allowed => {
                 if let StepPace::Allowed(allowance) = &mut plan.pace {
-                    allowance.share = fineness;
-                    // If no error bounds a step, two trials would make the same steps, and would not differ.
-                    let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
-                    allowance.longest /= finer;
-                    if self.by_ticks && finer > 1.0 {
-                        plan.tick /= finer.ceil();
-                        // A step from an event to the end of a tick would be the same in both.
-                        allowance.longest = allowance.longest.min(0.5 * plan.tick);
+                    // Steps that no error bounds would be the same in two trials, which would not differ.
+                    let first = Allowance { share: self.coarsest.max(fineness), ..*allowance };
+                    *allowance = first.with_share(fineness);
+                    if self.by_ticks {
+                        plan.tick /= allowance.shorter.ceil();
                     }
                 }
             }

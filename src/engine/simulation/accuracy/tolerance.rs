@@ -2,12 +2,17 @@
 //!
 //! Two runs differ by the error of the coarser one, unless their errors are equal. So a fineness is accepted only after
 //! a finer trial has differed by no more than the allowed error. Otherwise the power by which errors fall determines
-//! the necessary fineness. It is accepted only if a third trial differs by the predicted amount. Errors are those of
-//! the whole run, not of a step. The growth of the error of a step in a scene is measured, not guessed.
+//! the fineness of the next trial. Errors are those of the whole run, not of a step. The growth of the error of a step
+//! in a scene is measured, not guessed.
+//!
+//! Errors of equal steps follow the power law of their method, once three trials have shown it. Then a fineness that it
+//! foretells is accepted too. Errors of steps whose length follows from their error obey no such law. They add up with
+//! changing signs, so that the sum for one allowance says little of the sum for another. They are measured only.
 
 use super::fineness::{Ladder, Trials};
 use super::reference::TELLS_NOTHING;
 use super::trajectory::{Trajectory, TrajectoryDistance};
+use crate::integrate::ORDER;
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
@@ -55,6 +60,10 @@ struct Climb {
     finest: f64,
     /// The greatest factor by which the final run is finer than the last trial.
     trusted: f64,
+    /// Whether errors follow a power law, so that those of a fineness without a finer trial are known.
+    lawful: bool,
+    /// Evaluations rise with this power of one over the fineness.
+    cost: f64,
 }
 
 impl Climb {
@@ -68,6 +77,8 @@ impl Climb {
             wary: true,
             finest: steps / 4096.0,
             trusted: 0.25,
+            lawful: true,
+            cost: 1.0,
         };
         match trials.ladder {
             Ladder::Allowed => Self {
@@ -78,6 +89,8 @@ impl Climb {
                 wary: false,
                 finest: 1e-14,
                 trusted: 1.0,
+                lawful: false,
+                cost: 1.0 / ORDER,
             },
             Ladder::Steps => Self { power: f64::from(trials.order), wary: false, ..even },
             Ladder::Ticks => even,
@@ -86,6 +99,14 @@ impl Climb {
 }
 
 impl Climb {
+    /// The fineness of the next trial, if the last one had `next` and the error asks for `wanted`. `None` if no finer
+    /// trial fits into the evaluations that are left; the last one took `taken`.
+    fn then(&self, (next, wanted, least): (f64, f64, f64), taken: u64, left: u64) -> Option<f64> {
+        let affordable = next * (taken as f64 / left as f64).powf(1.0 / self.cost);
+        let finer = next * self.finer;
+        (affordable <= finer).then(|| self.down_to(wanted.clamp(next * least, finer).max(affordable)))
+    }
+
     /// The fineness of a trial. Two trials that are finest to rounding would not differ, so one near the finest is that.
     fn down_to(&self, fineness: f64) -> f64 {
         if fineness < 2.0 * self.finest { self.finest } else { fineness }
@@ -140,7 +161,10 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let left = 1.0 - (next / fineness).powf(climb.power);
         let foretold_at = |then: f64| (then / fineness).powf(climb.power) / left;
         // An error that rounding bounds does not fall with fineness.
-        let share_at = |then: f64| if fine.bounded { foretold_at(then).max(1.0) } else { foretold_at(then) };
+        let share_at = |then: f64| match () {
+            () if fine.bounded || !climb.lawful && then < fineness => foretold_at(then).max(1.0),
+            () => foretold_at(then),
+        };
         let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
         let alike = coarse.bounded && fine.bounded;
         let chosen = match difference {
@@ -148,6 +172,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             // Ticks with too many events continued by another method, and two runs of it make the same errors.
             _ if coarse.overloaded || fine.overloaded => None,
             _ if difference <= MEASURED * tolerance => Some(fineness),
+            // Without a law only a finer trial tells the error of the next one, and two trials show no law.
+            _ if !climb.lawful || before.is_none() => None,
             _ if difference <= BETWEEN * tolerance => Some(next),
             _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
             _ => None,
@@ -155,15 +181,16 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         if let Some(chosen) = chosen {
             return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
         }
-        let dear = trials.evaluations > MOST_EVALUATIONS;
-        if alike || dear || next <= climb.finest || trials.count >= MOST_TRIALS {
-            let ends = Ends { fineness: next, finest: next <= climb.finest };
-            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
-        }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
+        let unspent = MOST_EVALUATIONS.saturating_sub(trials.evaluations);
+        let then = climb.then((next, wanted, least), fine.evaluations, unspent);
+        let ended = alike || next <= climb.finest || trials.count >= MOST_TRIALS;
+        let Some(then) = then.filter(|_| !ended) else {
+            let ends = Ends { fineness: next, finest: next <= climb.finest, dear: then.is_none() };
+            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
+        };
         before = Some((fineness, difference, difference * share_at(next)));
-        (fineness, coarse) = (next, fine);
-        next = climb.down_to(wanted.clamp(next * least, next * climb.finer));
+        (fineness, coarse, next) = (next, fine, then);
     }
 }
 
@@ -210,6 +237,8 @@ struct Ends {
     fineness: f64,
     /// Whether the engine takes no finer steps.
     finest: bool,
+    /// Whether a finer trial would take too many evaluations.
+    dear: bool,
 }
 
 /// No run was fine enough. The finest is taken, and the card gives the time from which it is wrong.
@@ -225,7 +254,7 @@ fn missed(
     let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
     let why = match lost {
         _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
-        _ if trials.evaluations > MOST_EVALUATIONS => {
+        _ if ends.dear && !ends.finest => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
         _ if coarse.overloaded || fine.overloaded => {
