@@ -2,9 +2,11 @@
 
 mod agreement;
 mod crowd;
+mod defaults;
 mod defects;
 mod draw;
 mod impact;
 mod landings;
 mod ran;
 mod statements;
+mod tolerances;

@@ -67,8 +67,9 @@ pub(super) struct Trials<'a> {
     coarsest: f64,
     /// The number of trials so far.
     pub count: u32,
-    /// The number of times that forces were evaluated in all of them.
+    /// The number of times that forces were evaluated in all of them, and the work of that.
     pub evaluations: u64,
+    pub work: f64,
     /// The greatest distance and speed of bodies, from the last trial.
     sizes: (f64, f64),
 }
@@ -101,6 +102,7 @@ impl<'a> Trials<'a> {
             coarsest: 0.0,
             count: 0,
             evaluations: 0,
+            work: 0.0,
             sizes: (0.0, 0.0),
         }
     }
@@ -173,6 +175,7 @@ impl<'a> Trials<'a> {
         let trajectory = Trajectory::record(&mut simulation, per_moment, MOST_OF_A_RUN)
             .map_err(|evaluations| simulation.refused(endless(simulation.duration(), evaluations)))?;
         self.evaluations += trajectory.evaluations;
+        self.work += trajectory.work;
         self.cut = hastened && trajectory.failure.is_some();
         if trajectory.failure.is_none() {
             let (distance, speed) = trajectory.sizes();

@@ -33,8 +33,12 @@ const SCATTER: f64 = 3.0;
 const FIRST: f64 = 0.1;
 /// The greatest number of trials if the error does not fall as expected.
 const MOST_TRIALS: u32 = 9;
-/// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
-const MOST_EVALUATIONS: u64 = 30_000_000;
+/// The work of all trials, in evaluations of the forces of the smallest scene: about half a minute. A trial that would
+/// exceed it is not begun.
+const MOST_WORK: f64 = 6e7;
+
+/// Trials with located events after one with too many, before all go by whole ticks.
+const MORE_LOCATED: usize = 2;
 
 /// A scene loses digits if its distance from the origin exceeds the ways of its bodies by this factor.
 const FAR: f64 = 10.0;
@@ -62,7 +66,7 @@ struct Climb {
     trusted: f64,
     /// Whether errors follow a power law, so that those of a fineness without a finer trial are known.
     lawful: bool,
-    /// Evaluations rise with this power of one over the fineness.
+    /// The work rises with this power of one over the fineness.
     cost: f64,
 }
 
@@ -99,12 +103,14 @@ impl Climb {
 }
 
 impl Climb {
-    /// The fineness of the next trial, if the last one had `next` and the error asks for `wanted`. `None` if no finer
-    /// trial fits into the evaluations that are left; the last one took `taken`.
-    fn then(&self, (next, wanted, least): (f64, f64, f64), taken: u64, left: u64) -> Option<f64> {
-        let affordable = next * (taken as f64 / left as f64).powf(1.0 / self.cost);
-        let finer = next * self.finer;
-        (affordable <= finer).then(|| self.down_to(wanted.clamp(next * least, finer).max(affordable)))
+    /// The fineness of the next trial, at least `least` times that of the last one, which had `next` and took the work
+    /// `taken`. The error asks for `wanted`, as far as a pair of trials tells, or as `sure` as two of them do. `None` if
+    /// no finer trial fits into the work that is left, or surely none that would do.
+    fn then(&self, (next, least): (f64, f64), (wanted, sure): (f64, bool), (taken, left): (f64, f64)) -> Option<f64> {
+        let affordable = next * (taken / left.max(f64::MIN_POSITIVE)).powf(1.0 / self.cost);
+        let (finer, needed) = (next * self.finer, wanted.max(self.finest).min(next * self.finer));
+        let fits = affordable <= if sure { needed } else { finer };
+        fits.then(|| self.down_to(wanted.clamp(next * least, finer).max(affordable)))
     }
 
     /// The fineness of a trial. Two trials that are finest to rounding would not differ, so one near the finest is that.
@@ -117,7 +123,7 @@ impl Climb {
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     trials.hasty = true;
     let plan = climb(tolerance, trials)?;
-    if plan.warning.is_none() || !trials.cut || trials.evaluations > MOST_EVALUATIONS {
+    if plan.warning.is_none() || !trials.cut || trials.work > MOST_WORK {
         return Ok(plan);
     }
     (trials.hasty, trials.count) = (false, 0);
@@ -127,6 +133,13 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
 fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut climb = Climb::of(trials, tolerance);
     let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
+    for _ in 0..MORE_LOCATED {
+        // Rounding may decide whether events crowd in one tick. Then they do not with other steps.
+        if coarse.overloaded && trials.ladder == Ladder::Allowed {
+            climb.first *= climb.finer;
+            coarse = trials.run(climb.first, "a coarse run with other steps", |_| {})?;
+        }
+    }
     if coarse.overloaded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
         climb = Climb::of(trials, tolerance);
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
@@ -182,8 +195,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
-        let unspent = MOST_EVALUATIONS.saturating_sub(trials.evaluations);
-        let then = climb.then((next, wanted, least), fine.evaluations, unspent);
+        let (sure, left) = (before.is_some(), MOST_WORK - trials.work);
+        let then = climb.then((next, least), (wanted, sure), (fine.work, left));
         let ended = alike || next <= climb.finest || trials.count >= MOST_TRIALS;
         let Some(then) = then.filter(|_| !ended) else {
             let ends = Ends { fineness: next, finest: next <= climb.finest, dear: then.is_none() };
