@@ -18,10 +18,13 @@ use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
 use jostle_language::numbers::{number, rough};
 
-/// A trial is good if a finer one differs from it by at most this share of the tolerance. The finer one is good if they
-/// differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally large and alike.
+/// A trial is good if a finer one differs from it by at most this share of the tolerance. Where errors follow a law, the
+/// finer one is good if they differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally
+/// large and alike.
 const MEASURED: f64 = 0.7;
 const BETWEEN: f64 = 2.5;
+/// The same as `MEASURED`, where the finer one allows a tenth of the error and so errs by a tenth.
+const OF_A_TENTH: f64 = 0.9;
 /// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
 /// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
@@ -64,6 +67,8 @@ struct Climb {
     finest: f64,
     /// The greatest factor by which the final run is finer than the last trial.
     trusted: f64,
+    /// A trial is good if a finer one differs by at most this share of the tolerance.
+    measured: f64,
     /// Whether errors follow a power law, so that those of a fineness without a finer trial are known.
     lawful: bool,
     /// The work rises with this power of one over the fineness.
@@ -81,6 +86,7 @@ impl Climb {
             wary: true,
             finest: steps / 4096.0,
             trusted: 0.25,
+            measured: MEASURED,
             lawful: true,
             cost: 1.0,
         };
@@ -93,6 +99,7 @@ impl Climb {
                 wary: false,
                 finest: 1e-14,
                 trusted: 1.0,
+                measured: OF_A_TENTH,
                 lawful: false,
                 cost: 1.0 / ORDER,
             },
@@ -184,7 +191,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             _ if alike => None,
             // Ticks with too many events continued by another method, and two runs of it make the same errors.
             _ if coarse.overloaded || fine.overloaded => None,
-            _ if difference <= MEASURED * tolerance => Some(fineness),
+            _ if difference <= climb.measured * tolerance => Some(fineness),
             // Without a law only a finer trial tells the error of the next one, and two trials show no law.
             _ if !climb.lawful || before.is_none() => None,
             _ if difference <= BETWEEN * tolerance => Some(next),
