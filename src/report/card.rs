@@ -14,8 +14,8 @@ use jostle_engine::contacts::{DeepestOverlap, Overlap};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::StepCount;
 use jostle_engine::joints::Joint;
-use jostle_engine::simulation::Simulation;
 use jostle_engine::simulation::error::{ErrorEstimate, KnownError};
+use jostle_engine::simulation::{Plan, Simulation};
 use jostle_engine::tick::Notes;
 use jostle_engine::tick::energy::EnergyLedger;
 use jostle_engine::tick::{Failure, State, largest_travel, stands};
@@ -125,6 +125,9 @@ pub struct Card {
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,
+    /// The error that its steps may make, if their length follows from that.
+    #[serde(skip)]
+    allowed: Option<f64>,
 }
 
 /// The error card of a simulation, as a method.
@@ -193,6 +196,7 @@ impl Card {
             given_back,
             stands: stands(state),
             asked: known.map(|known| known.tolerance),
+            allowed: world.get_resource::<Plan>().and_then(Plan::allowed),
         };
         card.notes.extend(estimated.notes);
         card.notes.extend(state.models().flat_map(|model| model.remarks(state)));
@@ -227,6 +231,7 @@ impl Card {
     pub fn remedy(&self) -> Option<Remedy> {
         match self.asked {
             Some(tolerance) => tolerance.map(|tolerance| Remedy::Tolerance(tolerance / 10.0)),
+            None if self.allowed.is_some() => self.allowed.map(Remedy::Tolerance),
             None if self.critical_tick == Some(0.0) => Some(Remedy::Method),
             None => Some(Remedy::Tick(self.known().advised_tick())),
         }
@@ -239,7 +244,12 @@ impl Card {
 
     /// Whether its steps are its ticks, of the requested length.
     pub(super) fn by_ticks(&self) -> bool {
-        self.asked.is_none()
+        self.asked.is_none() && self.allowed.is_none()
+    }
+
+    /// Whether its error is known from trials before it, and not from runs after it.
+    pub(super) fn has_trials(&self) -> bool {
+        self.asked.is_some()
     }
 
     /// The tick with which an error that falls with this power of it becomes `wanted`, rounded as people write it.

@@ -2,6 +2,7 @@
 
 mod agreement;
 mod crowd;
+mod defaults;
 mod defects;
 mod draw;
 mod fast_sensors;
@@ -12,3 +13,4 @@ mod other_kind;
 mod ran;
 mod releases;
 mod statements;
+mod tolerances;

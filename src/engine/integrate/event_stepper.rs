@@ -199,7 +199,7 @@ impl EventStepper {
         if let Some(control) = &mut self.control {
             control.look(flow);
             let start = (from, self.state.as_slice(), self.work.rates.as_slice());
-            let near = longest_among_many(flow);
+            let near = longest_among_many(flow) / control.shorter();
             let length = control.length(flow, self.method.order_of_error(), start, near.min(until - from));
             until = if length < until - from { from + length } else { until };
             flow.write(&self.state);
@@ -363,12 +363,13 @@ impl EventStepper {
 
     /// The end of the next step from `now`, and whether an edge of a force ends it. The `part` is the index of a whole
     /// part of the tick.
-    fn target(&self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
+    fn target(&mut self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
         let edge = tick.next_edge(now);
-        let end = match &self.control {
-            // A prescribed motion is given from tick to tick.
-            Some(control) if tick.state().bodies.prescribed.motions.is_empty() => now + control.longest(),
-            Some(control) => tick.end.min(now + control.longest()),
+        // A prescribed motion is given from tick to tick.
+        let by_ticks = !tick.state().bodies.prescribed.motions.is_empty();
+        let end = match &mut self.control {
+            Some(control) if by_ticks => tick.end.min(now + control.longest(now, edge.min(tick.end))),
+            Some(control) => now + control.longest(now, edge),
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
         };

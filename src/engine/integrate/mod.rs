@@ -21,7 +21,7 @@ use bevy_ecs::prelude::*;
 
 pub use chosen::ChosenMethod;
 pub use clock_section::{ClockSection, EventTiming};
-pub use control::{Allowance, MOST_STEPS};
+pub use control::{Allowance, ORDER};
 pub use event_stepper::{Detail, EventStepper, StepPace};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use velocity_verlet::VelocityVerlet;

@@ -159,7 +159,7 @@ impl Limit {
         let reached = self.reached.take();
         let left = self.left.take();
         let rate = pair.rate(&freedom.along);
-        let still = rate.abs() <= PULL * pair.speeds(&freedom.along).max(self.fastest);
+        let still = rate.abs() <= self.rounding(pair, freedom);
         let arrives = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let there = reached == Some(*side) || room <= AT * size;
@@ -183,9 +183,14 @@ impl Limit {
     /// After a jump of velocities: leaves a limit from which the joint departs.
     pub fn after_blow(&mut self, pair: &EndPair, freedom: &Freedom) {
         let away = self.at.map_or(0.0, |side| side.sign() * pair.rate(&freedom.along));
-        if away > PULL * pair.speeds(&freedom.along) {
+        if away > self.rounding(pair, freedom) {
             self.leave();
         }
+    }
+
+    /// A rate in rad/s or m/s that is rounding. Behind a blow that stops the bodies, their speeds are rounding themselves.
+    fn rounding(&self, pair: &EndPair, freedom: &Freedom) -> f64 {
+        PULL * pair.speeds(&freedom.along).max(self.fastest)
     }
 
     /// Between ticks: leaves a limit that would have to pull. Says whether it did.
@@ -241,7 +246,7 @@ impl Limit {
         // A limit that was left in this tick pushes away only by rounding.
         let rests = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
-            let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
+            let still = rate.abs() <= self.rounding(pair, freedom);
             self.left != Some(*side) && room.abs() <= AT * size && still && side.sign() * acceleration < 0.0
         };
         // Friction that holds the joint, or another one, leaves rounding of the forces of all rows.

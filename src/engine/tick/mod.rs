@@ -64,6 +64,7 @@ pub mod stopwatch;
 pub mod touch;
 mod travel;
 mod undo;
+mod work;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -98,6 +99,7 @@ pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};
 pub use travel::{FarTravel, far_travel, largest_travel, stands};
 pub use undo::Undo;
+pub use work::work_of_an_evaluation;
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]

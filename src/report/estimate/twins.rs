@@ -13,7 +13,7 @@ use super::work::{self, Patience, TooLong};
 use super::{Repeated, moments, other_kind, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, EventTiming, StepPace};
+use jostle_engine::integrate::{Detail, EventTiming, ORDER, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -35,6 +35,8 @@ pub(super) struct Finer {
     pub parts: u32,
     /// Whether a method with located events makes it, unlike the first run.
     pub located: bool,
+    /// The share of the allowed error, where the length of steps follows from it.
+    pub allowed: f64,
 }
 
 /// The method of twins with located events in place of velocity Verlet, and the evaluations of a step beside those of
@@ -44,15 +46,17 @@ const EVALUATIONS: f64 = 5.0;
 
 impl Finer {
     /// The same run once more.
-    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, located: false };
+    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, located: false, allowed: 1.0 };
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
     /// With the same tick by a method with located events.
     pub const LOCATED: Self = Self { located: true, ..Self::SAME };
+    /// With a tenth of the error allowed to a step.
+    const TENTH: Self = Self { allowed: 0.1, ..Self::SAME };
 
     /// The factor by which its steps are shorter.
     pub fn steps(self) -> f64 {
-        f64::from(self.ticks * self.parts) / f64::from(self.of)
+        f64::from(self.ticks * self.parts) / f64::from(self.of) * libm::pow(self.allowed, -1.0 / ORDER)
     }
 
     /// Its work over that of the first run.
@@ -76,12 +80,16 @@ impl Finer {
         if self.located {
             return 1.0;
         }
-        1.0 / (1.0 - libm::pow(self.steps(), -order))
+        if self.allowed < 1.0 { 1.0 / (1.0 - self.allowed) } else { 1.0 / (1.0 - libm::pow(self.steps(), -order)) }
     }
 
-    /// The plan of such a run; nothing, where steps are as long as their error allows.
+    /// The plan of such a run; nothing, if it would be no finer than the first.
     pub fn plan(self, simulation: &Simulation) -> Option<Plan> {
         let plan = simulation.plan()?.clone();
+        if let StepPace::Allowed(allowance) = plan.pace {
+            let pace = StepPace::Allowed(allowance.with_share(self.allowed * allowance.share));
+            return (self.allowed < 1.0).then_some(Plan { pace, ..plan });
+        }
         let tick = plan.tick * f64::from(self.of) / f64::from(self.ticks);
         let detail = Detail {
             parts: plan.detail.parts * self.parts,
@@ -128,6 +136,9 @@ fn switches_at_ticks(simulation: &Simulation) -> bool {
 /// The twins that give the error of a finished run.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
+    if simulation.plan().and_then(Plan::allowed).is_some() {
+        return vec![Finer::TENTH];
+    }
     let located = ChosenMethod::locates(world);
     let jumped = if located {
         world.resource::<State>().located().count > 0
@@ -176,7 +187,10 @@ pub(super) fn run(
 ) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
     let Some(plan) = finer.plan(first) else { return Ok(None) };
     let steps = if finer.parts > 1 { format!(" and steps in {} parts", finer.parts) } else { String::new() };
-    let what = format!("once more with a tick of {} s{steps}, for its error", number(plan.tick));
+    let what = match finer.allowed {
+        1.0 => format!("once more with a tick of {} s{steps}, for its error", number(plan.tick)),
+        share => format!("once more with {share} of the error allowed to a step, for its error"),
+    };
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
     Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience) {

@@ -4,6 +4,7 @@ use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust, VerdictPart};
 use crate::Remedy;
 use jostle_engine::contacts::search::OverlapAtStart;
+use jostle_engine::forces::resists;
 use jostle_engine::tick::State;
 use jostle_language::numbers::{number, percent};
 
@@ -36,7 +37,9 @@ pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let drag = card.energy.drag + card.energy.accounts.values().sum::<f64>();
     let taken = drag / card.energy_scale;
-    let mad = drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
+    // A run that went wrong makes all accounts NaN, also those that nothing in the scene uses.
+    let there = drag.is_finite() || !card.energy.accounts.is_empty() || resists(evidence.world.resource());
+    let mad = there && drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
     let what = "drag takes more than the whole velocity of a body in a tick, and reverses it".to_owned();
     // The reversed velocities set how far bodies travelled, so the travel does not tell which tick would do.
     let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));

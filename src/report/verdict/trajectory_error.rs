@@ -31,7 +31,7 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
 /// Chaos: any error grows until places have no correct digit.
 pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
-    let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
+    let horizon = evidence.card.error.filter(|_| !evidence.card.has_trials())?.horizon?;
     // If energy is missing, the tick makes bodies go elsewhere even without chaos.
     if evidence.card.energy_error() > INEXACT {
         return None;
@@ -122,11 +122,11 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
         Some(Cause { trust: Trust::ButNot(part), what: what.to_owned(), remedy: remedy.map(str::to_owned) })
     };
     match known.map(|error| error.horizon.filter(|horizon| *horizon < card.time)) {
-        Some(Some(horizon)) if !card.by_ticks() => {
+        Some(Some(horizon)) if card.has_trials() => {
             cause(VerdictPart::PlacesAfter(horizon), "runs with other tolerances go elsewhere from then on", None)
         }
         Some(_) => None,
-        None if card.by_ticks() => {
+        None if !card.has_trials() => {
             let what = "their error is not known. Energy says nothing of a light body among heavy ones";
             cause(VerdictPart::UnknownPlaces, what, Some("`--estimate`"))
         }

@@ -153,7 +153,7 @@ pub(super) enum PhaseEnd {
     Stops,
 }
 
-/// A share of a velocity that counts as rounding.
+/// A share of a velocity or force that counts as rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The end of the current phase of a spring with a Coulomb limit, and its indicators. `held`: its elongation follows no
@@ -194,7 +194,9 @@ pub(super) fn tell_slider(
             for (positive, sign) in [(true, -1.0), (false, 1.0)] {
                 let [value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
                 let bend = bend(slope, second_rate);
-                say(PhaseEnd::Gives(positive), Indicator { swings, ..Indicator::new(value, slope, bend) });
+                // A spring that stopped has the force of the cone, and at first the same rate.
+                let rounding = ROUNDING * (force[0].abs() + limit[0].abs());
+                say(PhaseEnd::Gives(positive), Indicator { rounding, swings, ..Indicator::new(value, slope, bend) });
             }
         }
     }
