@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod choice;
+mod default_stiffness;
 pub mod error;
 mod recorder;
 mod sampler;
@@ -364,6 +365,7 @@ pub fn begin(
     if let Some(mended) = world.remove_resource::<MendedShapes>() {
         world.resource_mut::<Notes>().0.extend(mended.notes());
     }
+    default_stiffness::choose(world);
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);
     }

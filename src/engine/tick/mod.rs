@@ -29,6 +29,7 @@
 pub mod after_load;
 mod batch;
 mod blows;
+mod breaking;
 pub mod bounds;
 pub mod clock;
 mod components;
@@ -71,6 +72,7 @@ pub use after_load::{AfterLoad, LoadErrors};
 pub use batch::step;
 pub(crate) use batch::{advance, foresee_components, open, rebuild};
 pub use blows::Blow;
+pub use breaking::{BLOW, BlowAtJoint};
 pub use clock::{Clock, Evaluation, EvaluationMode, Span};
 pub use components::index_of;
 pub use context::Tick;

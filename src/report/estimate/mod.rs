@@ -77,6 +77,8 @@ pub struct EstimatedError {
     pub known_until: Option<f64>,
     /// The time in s from which stiffer contacts lead elsewhere. The error of the model holds until then.
     pub model_until: Option<f64>,
+    /// The failure of a run with finer steps.
+    pub failed: Option<String>,
     /// Further notes on it.
     pub notes: Vec<String>,
 }
@@ -233,6 +235,7 @@ fn discretisation(
         };
         if let Some(failure) = &twin.failure {
             found.notes.push(format!("the error is not estimated: with finer steps {failure}"));
+            found.failed = Some(failure.to_string());
             return Ok(());
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));
