@@ -1,8 +1,8 @@
 //! Joints that break by blows: at ropes that become taut, and at limits.
 //!
 //! A blow counts as an even force over [`BLOW`]. Reference values: closed forms, given at each test. Tolerance: methods from tick to tick
-//! see an arrival at the end of a tick, so that speeds are off by what gravity changes in one. Located methods are exact but for their
-//! order and for rounding.
+//! see an arrival at the end of a tick. Speeds are then off by the change in one tick. Located methods leave the error of their
+//! order, and rounding.
 
 use jostle::joints::Joint;
 use jostle::scene::Source;
@@ -50,8 +50,8 @@ fn near(found: f64, exact: f64, tolerance: f64, of: &str) {
     assert!((found - exact).abs() <= tolerance, "{of}: {found} instead of {exact}, off by {:e}", found - exact);
 }
 
-/// Law: a weight that falls by `h` arrives with `v = sqrt(2 g h)`, and a rope stops it by the blow `m v`, unless that is more than the
-/// rope bears. A rope that breaks gives no impulse: the weight falls on as if there were none, and no energy is lost.
+/// Law: a weight that falls by `h` arrives with `v = sqrt(2 g h)`. A rope stops it by the blow `m v`, if the rope bears that. A rope that
+/// breaks gives no impulse: the weight falls on without it, and no energy is lost.
 #[test]
 fn a_rope_breaks_by_a_blow_above_its_strength() {
     for overrides in methods() {
@@ -67,12 +67,15 @@ fn a_rope_breaks_by_a_blow_above_its_strength() {
                      joints: [Rope(name: \"r\", a: World, anchor_a: (0, 0), b: \"w\", length: {:?}, break_force: {bears:?})]",
                     0.5 + slack
                 );
-                let of = format!("{:?} {:?} {:?}, {mass} kg, {slack} m, {share}", overrides.method, overrides.tick, overrides.tolerance);
+                let of = format!(
+                    "{:?} {:?} {:?}, {mass} kg, {slack} m, {share}",
+                    overrides.method, overrides.tick, overrides.tolerance
+                );
                 let simulation = ended(&scene, &overrides);
                 let (bodies, energy) = (simulation.bodies(), simulation.card().energy);
-                let told = remark(&simulation, "r").expect("the card tells of the blow");
-                // A rope that does not bear the weight breaks later by that.
-                let breaks = share < 1.0;
+                let told = remark(&simulation, "r");
+                assert_eq!(told.is_some(), share < 100.0, "{of}: {told:?}");
+                let (told, breaks) = (told.unwrap_or_default(), share < 1.0);
                 // A tick late, and as much too fast.
                 let late = if overrides.tick.is_some() { TICK } else { 1e-9 };
                 let kinetic = 0.5 * mass * speed * speed;
@@ -87,15 +90,15 @@ fn a_rope_breaks_by_a_blow_above_its_strength() {
                     assert_eq!(broken(&simulation, "r"), None, "{of}");
                     near(bodies.position[0].y, -0.5 - slack, 1e-12, &of);
                     near(energy.inelasticity, kinetic, 2.0 * mass * speed * G * late + 1e-9 * kinetic, &of);
-                    assert!(told.contains("bore a blow at "), "{of}: {told}");
+                    assert!(told.is_empty() || told.contains("bore a blow at "), "{of}: {told}");
                 }
             }
         }
     }
 }
 
-/// Law: a rod with its centre at the distance `l`, which turns with `w` into a limit, is stopped by a couple there and by the blow `m l w` at
-/// its hinge, `(1 + e)` times as much if it comes back. A hinge that bears less breaks: the rod flies on with `l w` and with `w`.
+/// Law: a rod with its centre at the distance `l` turns with `w` into a limit. A couple stops it there, and the blow `m l w` at its hinge.
+/// The blow is `(1 + e)` times as much if it comes back. A hinge that bears less breaks: the rod flies on with `l w` and with `w`.
 #[test]
 fn a_hinge_breaks_by_the_blow_at_its_limit() {
     let (mass, arm, spin) = (2.0, 0.5, 3.0);
@@ -111,15 +114,20 @@ fn a_hinge_breaks_by_the_blow_at_its_limit() {
                     arm * spin,
                     share * blow / BLOW
                 );
-                let of = format!("{:?} {:?} {:?}, {restitution}, {share}", overrides.method, overrides.tick, overrides.tolerance);
+                let of = format!(
+                    "{:?} {:?} {:?}, {restitution}, {share}",
+                    overrides.method, overrides.tick, overrides.tolerance
+                );
                 let simulation = ended(&scene, &overrides);
                 let bodies = simulation.bodies();
-                let (along, turns) = if share < 1.0 { (arm * spin, spin) } else { (restitution * arm * spin, -restitution * spin) };
+                let (along, turns) =
+                    if share < 1.0 { (arm * spin, spin) } else { (restitution * arm * spin, -restitution * spin) };
                 assert_eq!(broken(&simulation, "pin").is_some(), share < 1.0, "{of}");
                 near(bodies.velocity[0].length(), along, 1e-9, &of);
                 near(bodies.spin[0], turns, 1e-9, &of);
                 let told = remark(&simulation, "pin").expect("the card tells of the blow");
-                let impulse = if share < 1.0 { told.split(" by a blow of ") } else { told.split("The blow was ") }.nth(1);
+                let impulse =
+                    if share < 1.0 { told.split(" by a blow of ") } else { told.split("The blow was ") }.nth(1);
                 let impulse: f64 = impulse.unwrap().split(' ').next().unwrap().parse().unwrap();
                 near(impulse, blow, 1e-4 * blow, &of);
             }
@@ -155,8 +163,8 @@ fn a_blow_breaks_what_passes_it_on() {
     }
 }
 
-/// Law: a load that a rope bears breaks nothing: a taut rope at the start, a swing, and an end that arrives with no speed. Such an arrival
-/// is rounding under located methods. From tick to tick its speed is that of a tick, and its blow no more than its weight.
+/// Law: a load that a rope bears breaks nothing. The loads are a taut rope at the start, a swing, and an end that arrives with no speed. Such
+/// an arrival is rounding under located methods. From tick to tick its speed is that of a tick, and its blow no more than its weight.
 #[test]
 fn what_a_rope_bears_does_not_break_it() {
     for overrides in methods() {

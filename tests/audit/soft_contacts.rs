@@ -1,4 +1,4 @@
-//! Soft contacts: what a verdict says of overlaps, the stiffness of materials that give none, and what ticks do not see.
+//! Soft contacts: verdicts on overlaps, the stiffness of materials that give none, and paths that ticks do not see.
 //!
 //! Reference values are closed forms of a linear spring, given at each test. Tolerance of overlaps and bounces: the engine takes 40 ticks
 //! for a contact, which leaves some thousandths of its depth.
@@ -40,8 +40,8 @@ fn stiffness(simulation: &Simulation) -> f64 {
     simulation.bodies().atom_stiffness(0)
 }
 
-/// What a verdict may say of an overlap of this share of a radius: nothing below a twentieth, its effect up to a tenth, and from there
-/// on it does not trust contacts. Words of the effect.
+/// A verdict says nothing of an overlap below a twentieth of a radius, and names its effect from there on. From a tenth on it does not
+/// trust contacts.
 #[track_caller]
 fn told_as_deserved(verdict: &str, share: f64, effect: &str) {
     let (names, doubts) = (verdict.contains("of a radius"), verdict.contains("Do not trust the model at contacts"));
@@ -132,7 +132,10 @@ fn a_soft_packing_is_denser_and_the_verdict_says_so() {
         )
     };
     let verdict = ended(&packing(3e3)).card().verdict;
-    assert!(verdict.contains("Do not trust the model at contacts") && verdict.contains("a packing is up to "), "{verdict}");
+    assert!(
+        verdict.contains("Do not trust the model at contacts") && verdict.contains("a packing is up to "),
+        "{verdict}"
+    );
     let verdict = ended(&packing(3e7)).card().verdict;
     assert!(!verdict.contains("a packing"), "{verdict}");
 }
@@ -140,21 +143,28 @@ fn a_soft_packing_is_denser_and_the_verdict_says_so() {
 /// The scenes of users that were wrong and trusted.
 #[test]
 fn soft_scenes_are_not_trusted_in_silence() {
-    for (name, effect) in [("odometry", "a wheel rolls up to "), ("soft_bounce", "a bounce takes about "), ("overlap", "a bounce")] {
+    for (name, effect) in
+        [("odometry", "a wheel rolls up to "), ("soft_bounce", "a bounce takes about "), ("overlap", "a bounce")]
+    {
         let verdict = ran(&defect(name), 1).card.verdict;
-        assert!(verdict.contains("Do not trust the model at contacts") && verdict.contains(effect), "{name}: {verdict}");
+        assert!(
+            verdict.contains("Do not trust the model at contacts") && verdict.contains(effect),
+            "{name}: {verdict}"
+        );
     }
 }
 
 /// The share of the smallest radius that the stiffness of a material without one allows, as the manual states.
 const STATED: f64 = 0.02;
 
-/// Law: a body of mass `m` at the speed `v` presses in a spring by `v sqrt(m/k)`, and two bodies by `v sqrt(m/k)` with the reduced mass and
-/// half the stiffness. The default stiffness keeps that below the stated share, and is not below 1000 N/m.
+/// Law: a body of mass `m` at the speed `v` presses in a spring by `v sqrt(m/k)`. Two bodies do so with the reduced mass and half the
+/// stiffness. The default stiffness keeps that below the stated share, and is not below 1000 N/m.
 #[test]
 fn the_default_stiffness_suits_masses_and_speeds() {
     let body = |name: &str, x: f64, v: f64, mass: f64, radius: f64| {
-        format!("(name: \"{name}\", at: ({x:?}, 0), velocity: ({v:?}, 0), atoms: Disc(radius: {radius:?}, mass: {mass:?}))")
+        format!(
+            "(name: \"{name}\", at: ({x:?}, 0), velocity: ({v:?}, 0), atoms: Disc(radius: {radius:?}, mass: {mass:?}))"
+        )
     };
     for mass in [1e-3, 0.03, 1.0, 30.0, 1e3] {
         for speed in [0.01, 0.3, 3.0, 20.0] {
@@ -164,7 +174,8 @@ fn the_default_stiffness_suits_masses_and_speeds() {
                 let scene = |what: String| format!("Scene(format: 1, clock: (duration: {duration:?}), {what})");
                 let ball = body("ball", 1.1 * radius, -speed, mass, radius);
                 let wall = "walls: [(name: \"w\", left: (0, 0), right: (0, 1))]";
-                let fixed = format!("(name: \"f\", at: ({:?}, 0), fixed: true, atoms: Disc(radius: {radius:?}))", -radius);
+                let fixed =
+                    format!("(name: \"f\", at: ({:?}, 0), fixed: true, atoms: Disc(radius: {radius:?}))", -radius);
                 let other = |mass: f64, radius: f64| body("other", -1.02 * radius, speed, mass, radius);
                 for (what, expected) in [
                     (format!("{wall}, bodies: [{ball}]"), speed * mass.sqrt()),
@@ -180,21 +191,25 @@ fn the_default_stiffness_suits_masses_and_speeds() {
                     // Not much stiffer than needed: two digits, and a sampled maximum.
                     let needed = (expected / (STATED * radius)).powi(2);
                     assert!(expected.is_nan() || k <= needed.max(1000.0) * 1.11, "{of}: {needed} would do");
-                    assert!(simulation.notes().iter().any(|note| note.contains("N/m for bodies whose material gives none")));
+                    assert!(
+                        simulation.notes().iter().any(|note| note.contains("N/m for bodies whose material gives none"))
+                    );
                 }
             }
         }
     }
 }
 
-/// Law: from its lowest point a body falls to the floor, to the bottom of a valley, to a shelf or onto another body. What lies on it, or is
-/// joined to it, presses too.
+/// Law: a body falls to the floor, to the bottom of a valley, to a shelf or onto another body. Bodies on it, and bodies that joints hold to
+/// it, press too.
 #[test]
 fn the_default_stiffness_suits_falls_and_loads() {
     let floor = "walls: [(name: \"floor\", left: (1, 0), right: (0, 0))]";
     let valley = "walls: [(name: \"l\", left: (0, 0), right: (-1, 1)), (name: \"r\", left: (1, 1), right: (0, 0))]";
     let shelf = "walls: [(name: \"shelf\", from: (-1, 0), to: (1, 0))]";
-    let disc = |name: &str, y: f64, mass: f64| format!("(name: \"{name}\", at: (0, {y:?}), atoms: Disc(radius: 0.05, mass: {mass:?}))");
+    let disc = |name: &str, y: f64, mass: f64| {
+        format!("(name: \"{name}\", at: (0, {y:?}), atoms: Disc(radius: 0.05, mass: {mass:?}))")
+    };
     for mass in [1e-3, 1.0, 1e3] {
         for fall in [0.0, 0.01, 2.0] {
             let ball = disc("ball", 0.05 + fall, mass);
@@ -240,13 +255,16 @@ fn the_default_stiffness_of_light_scenes_stays() {
                 bodies: [(name: \"ball\", at: (0, 0.12), atoms: Disc(radius: 0.1, mass: 0.05))])"
         )
     };
-    let [left_out, given] = ["", "materials: {\"default\": (stiffness: 1000)},"].map(|materials| ended(&scene(materials)));
+    let [left_out, given] =
+        ["", "materials: {\"default\": (stiffness: 1000)},"].map(|materials| ended(&scene(materials)));
     assert_eq!((stiffness(&left_out), left_out.card().hash), (1000.0, given.card().hash));
     let heavy = scene("").replace("mass: 0.05", "mass: 50");
-    let [once, four] = [None, Some(4.0)].map(|factor| loaded(&heavy, &Overrides { stiffness: factor, ..Overrides::default() }));
+    let [once, four] =
+        [None, Some(4.0)].map(|factor| loaded(&heavy, &Overrides { stiffness: factor, ..Overrides::default() }));
     assert!(stiffness(&once) > 1e5, "{}", stiffness(&once));
     assert_eq!(stiffness(&four), 4.0 * stiffness(&once));
-    let mixed = heavy.replace("bodies: [", "bodies: [(name: \"own\", at: (9, 9), atoms: Disc(radius: 0.1, stiffness: 77)), ");
+    let mixed =
+        heavy.replace("bodies: [", "bodies: [(name: \"own\", at: (9, 9), atoms: Disc(radius: 0.1, stiffness: 77)), ");
     assert_eq!(loaded(&mixed, &Overrides::default()).bodies().atom_stiffness(0), 77.0);
 }
 
@@ -275,7 +293,7 @@ fn ticks_too_long_for_a_path_are_not_trusted() {
     }
 }
 
-/// Law: bars that cross have no corner inside each other, so no contact parts them: they are not trusted, and the card names them.
+/// Law: bars that cross have no corner inside each other, so no contact parts them. The card names them, and the verdict doubts them.
 #[test]
 fn bars_that_cross_are_not_trusted() {
     let verdict = ran(&defect("overlap_trust"), 1).card.verdict;

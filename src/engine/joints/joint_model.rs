@@ -15,7 +15,9 @@ use crate::constraints::{RowKind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneError};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::{BlowAtJoint, Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{
+    BlowAtJoint, Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt,
+};
 use crate::world::{Bodies, anchor};
 use jostle_language::numbers::number;
 

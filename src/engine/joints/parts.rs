@@ -12,6 +12,9 @@ use crate::scene::units::{Dimension, Quantity, Scalar};
 use crate::tick::{Blow, BlowAtJoint, EvaluationMode, Indicator, State};
 use jostle_language::numbers::number;
 
+/// The share of the break force from which on the card tells of a blow.
+const TOLD: f64 = 0.01;
+
 /// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub(super) struct Asked {
@@ -213,14 +216,16 @@ impl JointParts {
     pub fn remark(&self, name: &str) -> Option<String> {
         let counts = |blow: &BlowAtJoint| {
             let [impulse, force, time] = [blow.impulse, blow.force(), blow.lasts].map(number);
-            format!("{impulse} N s. It counts as {force} N, because a blow at a rigid joint counts as if it took {time} s")
+            format!(
+                "{impulse} N s. It counts as {force} N, because a blow at a rigid joint counts as if it took {time} s"
+            )
         };
         match (self.broken, &self.blow) {
             (Some(broken), Some(blow)) if blow.time == broken => {
                 Some(format!("the joint `{name}` broke at {} s by a blow of {}", number(broken), counts(blow)))
             }
             (Some(broken), _) => Some(format!("the joint `{name}` broke at {} s", number(broken))),
-            (None, Some(blow)) if blow.impulse > 0.0 => Some(format!(
+            (None, Some(blow)) if blow.force() > TOLD * self.break_force.unwrap_or(f64::INFINITY) => Some(format!(
                 "the joint `{name}` bore a blow at {} s. The blow was {}",
                 number(blow.time),
                 counts(blow)

@@ -11,12 +11,18 @@
 //! * speeds: those given, those of paths, and those of a fall to the lowest place. That is the lowest point of all half-planes, and
 //!   without one that of strips, fixed parts and bodies. A body that others meet may come back from there by the greatest restitution.
 //!
+//! A tick that the scene itself gives bounds the stiffness, so that a contact of the lightest body lasts [`TICKS`] of them. A tick of the
+//! command line does not: runs with finer ticks are to have the same contacts.
+//!
 //! The scene at its start does not tell the work of motors and forces. The verdict tells if overlaps become large.
+
+use std::f64::consts::PI;
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::contacts::penalty::{inelasticity_of, restitution_of};
+use crate::integrate::ClockSection;
 use crate::joints::Joint;
 use crate::tick::{Notes, State, rebuild};
 use crate::world::material::LEAST_STIFFNESS;
@@ -26,6 +32,9 @@ use jostle_language::numbers::number;
 /// Overlaps to expect, as a share of the smallest radius. It is a hundredth of a diameter, the bound that simulations of grains keep
 /// (Cleary and Sawley, *Applied Mathematical Modelling* 26, 2002). Twice the speeds foreseen still give less than a verdict mentions.
 const DEEPEST: f64 = 0.02;
+
+/// A contact that lasts so many ticks is resolved to about a hundredth.
+const TICKS: f64 = 20.0;
 
 /// A wall whose normal is nearer to the vertical than this has its lowest point everywhere.
 const LEVEL: f64 = 1e-9;
@@ -69,16 +78,28 @@ pub(super) fn choose(world: &mut World) {
     }
     // If bodies are incomplete, the run says so.
     let touches = rebuild(world) && world.resource::<State>().contact_law().is_some();
-    let (stiffness, cause) = if touches { Expected::of(world).stiffness() } else { (LEAST_STIFFNESS, None) };
+    let mut stiffness = LEAST_STIFFNESS;
     if touches {
-        let note = note(world, stiffness, cause);
+        let (wanted, cause) = Expected::of(world).stiffness();
+        stiffness = wanted.min(most_for_tick(world)).max(LEAST_STIFFNESS);
+        let note = note(world, stiffness, wanted, cause);
         world.resource_mut::<Notes>().0.push(note);
     }
     atom::give_stiffness(world, stiffness);
     world.resource_mut::<Materials>().give_stiffness(stiffness);
 }
 
-fn note(world: &World, stiffness: f64, cause: Option<Cause>) -> String {
+/// The greatest stiffness in N/m with which a contact of the lightest body lasts long enough for the tick of the scene.
+fn most_for_tick(world: &World) -> f64 {
+    let Some(tick) = world.get_resource::<ClockSection>().and_then(|clock| clock.tick) else { return f64::INFINITY };
+    let bodies = world.resource::<State>().bodies();
+    let touching = (0..bodies.len()).filter(|&body| bodies.dynamic[body] && bodies.collides[body]);
+    let lightest = touching.map(|body| bodies.mass[body]).fold(f64::INFINITY, f64::min);
+    let frequency = PI / (TICKS * tick.si());
+    rounded_up(lightest * frequency * frequency)
+}
+
+fn note(world: &World, stiffness: f64, wanted: f64, cause: Option<Cause>) -> String {
     let chosen = format!("stiffness {} N/m for bodies whose material gives none", number(stiffness));
     let Some(Cause { body, mass, speed, load }) = cause else {
         return format!("{chosen}: it suits the weights and speeds of the scene");
@@ -86,11 +107,17 @@ fn note(world: &World, stiffness: f64, cause: Option<Cause>) -> String {
     let entity = world.resource::<State>().bodies().entity[body];
     let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let [mass, speed, load] = [mass, speed, load].map(|value| number(two_digits(value)));
-    format!(
-        "{chosen}. `{name}` asks for it, with {mass} kg at up to {speed} m/s and a load of {load} N: overlaps of up to {} % of a radius \
-         are to be expected",
-        number(DEEPEST * 100.0),
-    )
+    // An overlap falls with the root of the stiffness in impacts, and with the stiffness itself at rest.
+    let share = number(two_digits(100.0 * DEEPEST * (wanted / stiffness).sqrt()));
+    let with = format!("{mass} kg at up to {speed} m/s and a load of {load} N");
+    if stiffness < wanted {
+        return format!(
+            "{chosen}. `{name}` asks for {} N/m, with {with}, and the tick of the scene is too long for that. Overlaps of {share} % of a \
+             radius and more are to be expected. Leave out `tick`, or give a `stiffness`",
+            number(wanted)
+        );
+    }
+    format!("{chosen}. `{name}` asks for it, with {with}: overlaps of up to {share} % of a radius are to be expected")
 }
 
 /// The touches to expect.
@@ -139,9 +166,8 @@ impl Expected {
             let on_wall = (unit.mass, speed, unit.size, 1.0);
             let on_held = self.held.map(|(size, fastest)| (unit.mass, speed + fastest, unit.size.min(size), 2.0));
             let other = masses.beside(place).zip(speeds.beside(place));
-            let on_other = other.map(|(mass, fastest)| {
-                (unit.mass * mass / (unit.mass + mass), speed + fastest, unit.size, 2.0)
-            });
+            let on_other =
+                other.map(|(mass, fastest)| (unit.mass * mass / (unit.mass + mass), speed + fastest, unit.size, 2.0));
             for (mass, speed, size, springs) in [Some(on_wall), on_held, on_other].into_iter().flatten() {
                 let deepest = DEEPEST * size;
                 let energy = springs * mass * speed * speed + most_springs * 2.0 * load * deepest;
@@ -166,7 +192,9 @@ impl GreatestTwo {
         let mut two = Self { greatest: None, second: None };
         for (place, value) in values.enumerate() {
             match two.greatest {
-                Some((_, greatest)) if value <= greatest => two.second = Some(two.second.map_or(value, |s| s.max(value))),
+                Some((_, greatest)) if value <= greatest => {
+                    two.second = Some(two.second.map_or(value, |s| s.max(value)))
+                }
                 greatest => (two.second, two.greatest) = (greatest.map(|(_, value)| value), Some((place, value))),
             }
         }

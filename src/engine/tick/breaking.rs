@@ -38,7 +38,9 @@ impl State {
     /// Breaks the joints that do not bear the blows of this step, and takes out the blows that they would have given.
     pub(super) fn break_joints(&mut self, time: f64, blows: &mut Vec<(usize, Blow)>) {
         let is_jump = |blow: &Blow| !matches!(blow, Blow::Sticks | Blow::Grips);
-        while blows.iter().any(|(_, blow)| is_jump(blow)) && self.models.iter().any(|model| model.break_force().is_some()) {
+        while blows.iter().any(|(_, blow)| is_jump(blow))
+            && self.models.iter().any(|model| model.break_force().is_some())
+        {
             let taken = self.blows_at_joints(time, blows);
             let shares = taken.iter().map(|(joint, blow, most)| (*joint, *blow, blow.force() / most));
             // Of equal ones the first.
@@ -52,7 +54,7 @@ impl State {
         }
     }
 
-    /// The blows at all joints with a break force, if all joints hold: the index of the joint, its blow and its break force in N.
+    /// The blows at all joints with a break force, if all joints hold. Each has the index of the joint, and its break force in N.
     fn blows_at_joints(&mut self, time: f64, blows: &[(usize, Blow)]) -> Vec<(usize, BlowAtJoint, f64)> {
         let (mut rows, mut owners) = (Rows::default(), Vec::new());
         for &index in &self.roles.rows {
@@ -83,7 +85,7 @@ impl State {
             };
             sums[owners[index]] += force * impulse;
         }
-        // Without located events a joint that gives way for a step comes back with the speed that its load gave it in this step.
+        // Without located events, a joint may give way for a step. It comes back with the speed that its load gave it there.
         let lasts = if self.evaluation.mode == EvaluationMode::Frozen { BLOW } else { BLOW.max(self.span.length) };
         let bearing = |index: usize| {
             let most = self.models.get(index)?.break_force()?;

@@ -29,8 +29,8 @@
 pub mod after_load;
 mod batch;
 mod blows;
-mod breaking;
 pub mod bounds;
+mod breaking;
 pub mod clock;
 mod components;
 mod context;

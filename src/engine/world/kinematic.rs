@@ -97,8 +97,8 @@ impl Path {
 }
 
 impl Path {
-    /// The shortest time in seconds in which it goes from a stop, or a point where it turns back, to the next one.
-    /// Infinity: it does neither. A round that never stops swings twice.
+    /// The shortest time in seconds from a stop to the next one. A point where it turns back counts as a stop. Infinity: there is
+    /// none. A round that never stops swings twice.
     pub fn shortest_swing(&self) -> f64 {
         let pieces = || self.points.windows(2).map(|ends| (ends[0], ends[1], way(&ends[0], &ends[1])));
         let (mut shortest, mut began, mut stops) = (f64::INFINITY, 0.0, false);
@@ -122,8 +122,7 @@ impl Path {
         }
     }
 
-    /// Bounds of its greatest speed in m/s and spin in rad/s: a cubic is at most half as fast again as its mean, beside the speeds
-    /// of its ends.
+    /// Bounds of its greatest speed in m/s and spin in rad/s. Between points at rest, a cubic is half as fast again as its mean.
     pub fn fastest(&self) -> (f64, f64) {
         let ends = self.points.iter().map(|point| (point.velocity.length(), point.spin.abs()));
         let means = self.points.windows(2).map(|ends| {
@@ -279,8 +278,7 @@ impl Prescribed {
         self.motions.iter().map(next).filter(|&point| point > time).fold(f64::INFINITY, f64::min)
     }
 
-    /// The body whose path turns or stops most often, by its index, and the shortest time in seconds between two such points
-    /// ([`Path::shortest_swing`]).
+    /// The body with the shortest swing ([`Path::shortest_swing`]), by its index, and that time in seconds.
     pub fn fastest_swing(&self) -> Option<(usize, f64)> {
         let swings = self.motions.iter().map(|(body, motion)| (*body, motion.path.shortest_swing()));
         swings.filter(|(_, swing)| swing.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))

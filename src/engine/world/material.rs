@@ -324,7 +324,7 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
 #[schemars(rename = "Material")]
 pub struct MaterialEntry {
     /// Stiffness of an atom in N/m. Above zero. A material without one gets the stiffness that suits the weights and speeds at the
-    /// start, and the card names it. Overlaps are then about 2 % of the smallest radius or less. Default: 1000, or more.
+    /// start. The card names it. Default: 1000, or more in heavy and fast scenes.
     pub stiffness: Option<Stiffness>,
     /// Coefficient of friction, not below zero: one number, or one for holding and one for slipping. Default: 0.
     pub friction: Option<Friction>,

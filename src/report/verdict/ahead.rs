@@ -33,11 +33,11 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
         )
     } else {
         format!(
-        "`{a}` and `{b}` overlap at the start by {} of the smaller radius. Contacts hold {} J from the start on, {} of the energy \
+            "`{a}` and `{b}` overlap at the start by {} of the smaller radius. Contacts hold {} J from the start on, {} of the energy \
          that changed form",
-        percent(overlap.share),
-        number(begin.elastic),
-        percent(share)
+            percent(overlap.share),
+            number(begin.elastic),
+            percent(share)
         )
     };
     let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());

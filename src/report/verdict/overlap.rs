@@ -12,11 +12,11 @@ const HEAVY: f64 = 100.0;
 /// Contacts are resolved if the critical tick is at least this many ticks.
 const TICKS: f64 = 20.0;
 
-/// An overlap, as a share of a radius, above which results differ from those of hard bodies by about as much. Readers of a
-/// verdict that trusts places take such a share for an error.
+/// An overlap, as a share of a radius, that is too much for hard bodies: results differ from theirs by about as much. A reader of
+/// trusted places takes such a share for an error.
 const DEEP: f64 = 0.1;
 
-/// An overlap, as a share of a radius, that hardly changes the meaning of a scene: the verdict does not mention it.
+/// An overlap, as a share of a radius, that the verdict does not mention.
 const HARDLY: f64 = 0.05;
 
 /// A contact was pressed in by much of a radius. In an impact the overlap `d = v sqrt(m/k)` falls with the root of the stiffness
@@ -61,7 +61,8 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
-    let remedy = format!("a `stiffness` some {times} times as high{with}: overlaps are then about a twentieth of a radius");
+    let remedy =
+        format!("a `stiffness` some {times} times as high{with}: overlaps are then about a twentieth of a radius");
     Some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy: Some(remedy) })
 }
 

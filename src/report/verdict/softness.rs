@@ -17,8 +17,7 @@ use jostle_engine::world::{Bodies, Materials};
 use jostle_language::numbers::number;
 use std::f64::consts::PI;
 
-/// An overlap, as a share of a radius, from which on the verdict names its effects: they are as large as what people measure
-/// without effort.
+/// From this share of a radius on, the verdict names the effects of an overlap. People measure such effects without effort.
 const NAMED: f64 = 0.05;
 
 /// One side of the deepest overlap.
@@ -113,7 +112,7 @@ fn known(evidence: &Evidence, deepest: &Overlap) -> Option<String> {
     }
 }
 
-/// A share in percent, with two digits.
+/// A share of two digits, in words.
 pub(super) fn share(share: f64) -> String {
     format!("{} %", number(two_digits(share * 100.0)))
 }
