@@ -191,9 +191,8 @@ fn the_default_stiffness_suits_masses_and_speeds() {
                     // Not much stiffer than needed: two digits, and a sampled maximum.
                     let needed = (expected / (STATED * radius)).powi(2);
                     assert!(expected.is_nan() || k <= needed.max(1000.0) * 1.11, "{of}: {needed} would do");
-                    assert!(
-                        simulation.notes().iter().any(|note| note.contains("N/m for bodies whose material gives none"))
-                    );
+                    let told = |note: &String| note.contains("N/m for bodies whose material gives none");
+                    assert_eq!(simulation.notes().iter().any(told), k > 1000.0, "{of}");
                 }
             }
         }
@@ -266,6 +265,34 @@ fn the_default_stiffness_of_light_scenes_stays() {
     let mixed =
         heavy.replace("bodies: [", "bodies: [(name: \"own\", at: (9, 9), atoms: Disc(radius: 0.1, stiffness: 77)), ");
     assert_eq!(loaded(&mixed, &Overrides::default()).bodies().atom_stiffness(0), 77.0);
+}
+
+/// Law: a contact of mass `m` lasts `pi sqrt(m/k)`. A tick of the scene bounds the default stiffness, so that it lasts 20 ticks or more. The
+/// card tells the overlap to expect. A tick of the command line changes nothing.
+#[test]
+fn the_tick_of_a_scene_bounds_the_default_stiffness() {
+    for (mass, tick) in [(1.0, 1e-3), (0.5, 1e-4), (0.03, 1e-3), (20.0, 5e-3)] {
+        let scene = |clock: &str| {
+            format!(
+                "Scene(format: 1, clock: (duration: 1{clock}), gravity: (0, -{G}), walls: [(name: \"floor\", left: (1, 0), right: (0, 0))],
+                    bodies: [(name: \"ball\", at: (0, 1.1), atoms: Disc(radius: 0.1, mass: {mass:?}))])"
+            )
+        };
+        let by_tick = mass * (std::f64::consts::PI / (20.0 * tick)).powi(2);
+        let wanted = mass * 2.0 * G * 1.002 / (0.002_f64 * 0.002);
+        let bounded = ended(&scene(&format!(", tick: {tick:?}, method: VelocityVerlet")));
+        let exact = by_tick.min(wanted).max(1000.0);
+        assert!(
+            (exact..1.11 * exact).contains(&stiffness(&bounded)),
+            "{mass}, {tick}: {} for {exact}",
+            stiffness(&bounded)
+        );
+        let told = |note: &String| note.contains("the tick of the scene is too long for that");
+        assert_eq!(bounded.notes().iter().any(told), by_tick < wanted, "{:?}", bounded.notes());
+        let overrides = Overrides { tick: Some(tick), ..Overrides::default() };
+        let free = stiffness(&loaded(&scene(""), &overrides));
+        assert!((wanted..1.11 * wanted).contains(&free), "{mass}: {free} for {wanted}");
+    }
 }
 
 /// Law: a path that goes from stop to stop within few ticks meets bodies unseen. It is not trusted, whatever the error of the rest, and

@@ -307,7 +307,8 @@ fn nothing_is_blamed_where_nothing_is_wrong() {
         folder.jostle(&format!("run example:{scene} --estimate")).code(0).says("\n  Trust it: places to about ");
     }
     // Its balls go in by a seventh of a radius. All else is trusted.
-    let verdict = folder.jostle("run example:bounce --estimate --json").code(0).json().remove(0)["card"]["verdict"].clone();
+    let verdict =
+        folder.jostle("run example:bounce --estimate --json").code(0).json().remove(0)["card"]["verdict"].clone();
     let verdict = verdict.as_str().unwrap();
     assert!(verdict.starts_with("Trust energy ") && verdict.contains("places to about "), "{verdict}");
     assert_eq!(verdict.matches("Do not trust").count(), 1, "{verdict}");

@@ -11,8 +11,8 @@
 //! * speeds: those given, those of paths, and those of a fall to the lowest place. That is the lowest point of all half-planes, and
 //!   without one that of strips, fixed parts and bodies. A body that others meet may come back from there by the greatest restitution.
 //!
-//! A tick that the scene itself gives bounds the stiffness, so that a contact of the lightest body lasts [`TICKS`] of them. A tick of the
-//! command line does not: runs with finer ticks are to have the same contacts.
+//! A tick that the scene itself gives bounds the stiffness: a contact of the lightest body lasts at least [`TICKS`]. A tick of the
+//! command line does not, because runs with finer ticks are to have the same contacts.
 //!
 //! The scene at its start does not tell the work of motors and forces. The verdict tells if overlaps become large.
 
@@ -24,12 +24,12 @@ use glam::DVec2;
 use crate::contacts::penalty::{inelasticity_of, restitution_of};
 use crate::integrate::ClockSection;
 use crate::joints::Joint;
-use crate::tick::{Notes, State, rebuild};
+use crate::tick::{State, rebuild};
 use crate::world::material::LEAST_STIFFNESS;
 use crate::world::{Bodies, Materials, Name, PackedWall, atom};
 use jostle_language::numbers::number;
 
-/// Overlaps to expect, as a share of the smallest radius. It is a hundredth of a diameter, the bound that simulations of grains keep
+/// Overlaps to expect, as a share of the smallest radius. It is a hundredth of a diameter, as in simulations of grains
 /// (Cleary and Sawley, *Applied Mathematical Modelling* 26, 2002). Twice the speeds foreseen still give less than a verdict mentions.
 const DEEPEST: f64 = 0.02;
 
@@ -49,7 +49,7 @@ struct Unit {
     load: f64,
     /// The smallest size in m of what can touch; infinite if nothing can.
     size: f64,
-    /// Where it begins and ends across gravity, in m.
+    /// Its two ends across gravity, in m.
     across: [f64; 2],
     /// The height in m of its lowest part.
     bottom: f64,
@@ -59,7 +59,7 @@ struct Unit {
     speed: f64,
 }
 
-/// What sets the stiffness.
+/// The unit that sets the stiffness.
 struct Cause {
     /// Its heaviest body, by its index.
     body: usize,
@@ -71,25 +71,26 @@ struct Cause {
     load: f64,
 }
 
-/// Gives a stiffness to all atoms whose material has none, before the run begins.
-pub(super) fn choose(world: &mut World) {
+/// Gives a stiffness to all atoms whose material has none, before the run begins. Returns a note if it is not the least one, or too
+/// small.
+pub(super) fn choose(world: &mut World) -> Option<String> {
     if !atom::any_without_stiffness(world) {
-        return;
+        return None;
     }
     // If bodies are incomplete, the run says so.
     let touches = rebuild(world) && world.resource::<State>().contact_law().is_some();
-    let mut stiffness = LEAST_STIFFNESS;
+    let (mut stiffness, mut told) = (LEAST_STIFFNESS, None);
     if touches {
         let (wanted, cause) = Expected::of(world).stiffness();
         stiffness = wanted.min(most_for_tick(world)).max(LEAST_STIFFNESS);
-        let note = note(world, stiffness, wanted, cause);
-        world.resource_mut::<Notes>().0.push(note);
+        told = cause.map(|cause| note(world, stiffness, wanted, &cause));
     }
     atom::give_stiffness(world, stiffness);
     world.resource_mut::<Materials>().give_stiffness(stiffness);
+    told
 }
 
-/// The greatest stiffness in N/m with which a contact of the lightest body lasts long enough for the tick of the scene.
+/// The greatest stiffness in N/m that suits the tick of the scene: a contact of the lightest body lasts long enough.
 fn most_for_tick(world: &World) -> f64 {
     let Some(tick) = world.get_resource::<ClockSection>().and_then(|clock| clock.tick) else { return f64::INFINITY };
     let bodies = world.resource::<State>().bodies();
@@ -99,11 +100,9 @@ fn most_for_tick(world: &World) -> f64 {
     rounded_up(lightest * frequency * frequency)
 }
 
-fn note(world: &World, stiffness: f64, wanted: f64, cause: Option<Cause>) -> String {
+fn note(world: &World, stiffness: f64, wanted: f64, cause: &Cause) -> String {
     let chosen = format!("stiffness {} N/m for bodies whose material gives none", number(stiffness));
-    let Some(Cause { body, mass, speed, load }) = cause else {
-        return format!("{chosen}: it suits the weights and speeds of the scene");
-    };
+    let &Cause { body, mass, speed, load } = cause;
     let entity = world.resource::<State>().bodies().entity[body];
     let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let [mass, speed, load] = [mass, speed, load].map(|value| number(two_digits(value)));
@@ -129,7 +128,7 @@ struct Expected {
     restitution: f64,
     /// The height in m of the lowest place to which bodies can fall; `None`: nowhere.
     lowest: Option<f64>,
-    /// The smallest size in m of fixed bodies and of those with paths that touch, and the speed of the fastest of these in m/s.
+    /// The result of [`held`].
     held: Option<(f64, f64)>,
 }
 
@@ -207,7 +206,7 @@ impl GreatestTwo {
     }
 }
 
-/// The smallest size in m of bodies that no force moves and that touch, and the speed of the fastest of them in m/s.
+/// The smallest size in m of bodies that touch and that no force moves. The other number is the speed of the fastest in m/s.
 fn held(bodies: &Bodies) -> Option<(f64, f64)> {
     let held = || (0..bodies.len()).filter(|&body| !bodies.dynamic[body] && bodies.collides[body]);
     let sizes = held().flat_map(|body| bodies.atoms_of(body)).map(|atom| bodies.size_of_atom(atom));
@@ -322,7 +321,7 @@ fn half_planes(bodies: &Bodies) -> impl Iterator<Item = &PackedWall> {
 }
 
 /// The height in m of the lowest point inside all half-planes, if there is one. By the duality of linear programs it is the greatest
-/// height that one or two of them give, with normals that upwards lies between.
+/// height that one or two of them give. Upwards lies between the normals of the two.
 fn lowest_of_half_planes(bodies: &Bodies, up: DVec2) -> Option<f64> {
     let walls: Vec<_> = half_planes(bodies).filter(|_| up != DVec2::ZERO).collect();
     let level = walls.iter().filter(|wall| wall.normal.dot(up) > 0.0 && wall.normal.perp_dot(up).abs() < LEVEL);

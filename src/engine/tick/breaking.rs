@@ -11,9 +11,9 @@ use crate::constraints::Rows;
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-/// The time in s that a blow takes at a joint with a break force. Hard bodies of everyday size touch for about as long: a steel ball of
-/// 5 cm on steel at 1 m/s for 0.2 ms, on wood for 1 ms (Goldsmith, *Impact*, 1960). It also is the longest tick that the engine
-/// chooses, so that a load which the joint bears in each tick is no blow.
+/// The time in s that a blow takes at a joint with a break force. Hard bodies of everyday size touch for about as long. By the law of
+/// Hertz, a steel ball of 5 cm at 1 m/s touches steel for 0.2 ms, and wood for 1 ms. It also is the longest tick that the engine
+/// chooses. So a load that the joint bears in each tick is no blow.
 pub const BLOW: f64 = 1e-3;
 
 /// A blow at a joint with a break force.
@@ -35,7 +35,7 @@ impl BlowAtJoint {
 }
 
 impl State {
-    /// Breaks the joints that do not bear the blows of this step, and takes out the blows that they would have given.
+    /// Breaks the joints that do not bear the blows of this step. Their own blows fall away.
     pub(super) fn break_joints(&mut self, time: f64, blows: &mut Vec<(usize, Blow)>) {
         let is_jump = |blow: &Blow| !matches!(blow, Blow::Sticks | Blow::Grips);
         while blows.iter().any(|(_, blow)| is_jump(blow))

@@ -12,7 +12,7 @@ const HEAVY: f64 = 100.0;
 /// Contacts are resolved if the critical tick is at least this many ticks.
 const TICKS: f64 = 20.0;
 
-/// An overlap, as a share of a radius, that is too much for hard bodies: results differ from theirs by about as much. A reader of
+/// An overlap, as a share of a radius, that is too much for hard bodies. Results differ from theirs by about as much. A reader of
 /// trusted places takes such a share for an error.
 const DEEP: f64 = 0.1;
 

@@ -112,9 +112,9 @@ fn known(evidence: &Evidence, deepest: &Overlap) -> Option<String> {
     }
 }
 
-/// A share of two digits, in words.
+/// A share in words, of two digits and more.
 pub(super) fn share(share: f64) -> String {
-    format!("{} %", number(two_digits(share * 100.0)))
+    if share >= 0.1 { format!("{:.0} %", share * 100.0) } else { format!("{} %", number(two_digits(share * 100.0))) }
 }
 
 fn two_digits(value: f64) -> f64 {
