@@ -209,8 +209,8 @@ fn the_default_stiffness_suits_falls_and_loads() {
     let disc = |name: &str, y: f64, mass: f64| {
         format!("(name: \"{name}\", at: (0, {y:?}), atoms: Disc(radius: 0.05, mass: {mass:?}))")
     };
-    for mass in [1e-3, 1.0, 1e3] {
-        for fall in [0.0, 0.01, 2.0] {
+    for mass in [1e-3, 1e3] {
+        for fall in [0.0, 0.01, 0.5] {
             let ball = disc("ball", 0.05 + fall, mass);
             let high = disc("ball", 0.05 * 2.0_f64.sqrt() + fall, mass);
             let tower: Vec<String> = (0..5).map(|n| disc(&format!("d{n}"), 0.05 + 0.1 * f64::from(n), mass)).collect();
@@ -230,7 +230,7 @@ fn the_default_stiffness_suits_falls_and_loads() {
                 format!("{floor}, bodies: [{}]", tower.join(", ")),
                 format!("{floor}, bodies: [{robot}]"),
             ] {
-                let duration = (2.0 * fall / G).sqrt() + 0.3;
+                let duration = (2.0 * fall / G).sqrt() + 0.1;
                 let text = format!(
                     "Scene(format: 1, clock: (duration: {duration:?}), gravity: (0, -{G}), materials: {{\"default\": (restitution: 0.5)}}, {what})"
                 );
@@ -327,9 +327,9 @@ fn bars_that_cross_are_not_trusted() {
     assert!(verdict.contains("Do not trust the model at contacts"), "{verdict}");
     for degrees in [20, 45, 90, 130] {
         for (width, at) in [(1.0, 0.0), (1.0, 0.2), (3.0, -0.1)] {
-            for load in ["", ", gravity: (0, -1), walls: [(name: \"floor\", left: (1, -9), right: (0, -9))]"] {
+            for load in ["", ", gravity: (0, -1), walls: [(name: \"floor\", left: (1, -0.6), right: (0, -0.6))]"] {
                 let text = format!(
-                    "Scene(format: 1, clock: (duration: 0.2){load}, bodies: [
+                    "Scene(format: 1, clock: (duration: 0.05){load}, bodies: [
                         (name: \"a\", at: (0, 0), shape: Rectangle(width: {width:?}, height: 0.1)),
                         (name: \"b\", at: ({at:?}, 0), angle: \"{degrees} deg\", shape: Capsule(from: (-0.5, 0), to: (0.5, 0), radius: 0.02))])"
                 );

@@ -196,7 +196,7 @@ const BROKEN: [Broken; 27] = [
         "impacts that ticks do not see",
         r#"clock: (duration: 20, tick: 0.001, method: VelocityVerlet), gravity: (0, -10), FLOOR,
            materials: { "m": (stiffness: 8e3, restitution: 1) },
-           bodies: [(name: "ball", at: (0, 1), material: "m", atoms: Disc(radius: 0.1, mass: 1))]"#,
+           bodies: [(name: "ball", at: (0, 1.9), material: "m", atoms: Disc(radius: 1, mass: 1))]"#,
         "",
         &["contacts begin and end inside ticks", "`ball` first", "--tolerance"],
     ),
