@@ -1,13 +1,13 @@
-//! The stiffness of materials that give none. It grows with the weights and speeds of the scene, until the contacts to expect give way
-//! by little of a radius.
+//! The stiffness of materials that give none. It grows with the weights and speeds of the scene. The contacts to expect then give
+//! way by little of a radius.
 //!
-//! A body of mass `m` that meets a wall with the speed `v`, and then bears the load `L` of what stands on it, presses a contact spring
+//! A body of mass `m` meets a wall with the speed `v`, and then bears the load `L` of other bodies on it. It presses a contact spring
 //! in by `d`: `k d^2/2 = m v^2/2 + L d`. The bound is `d <= s`, with the share [`DEEPEST`] of the smallest radius that can touch. So
 //! `k = (m v^2 + 2 L s)/s^2`. The load alone then rests at most half as deep, because `k (s/2) = L` if nothing moves. Between two bodies,
 //! both springs are in series, and their masses count as one: `m_a m_b/(m_a + m_b)`.
 //!
 //! The scene at its start tells:
-//! * the mass of all bodies that joints hold together, and the load of all bodies in the same column along gravity;
+//! * the mass of all bodies that joints hold together, and the weight of all bodies in one column along gravity;
 //! * speeds: those given, those of paths, and those of a fall to the lowest place. That is the lowest point of all half-planes, and
 //!   without one that of strips, fixed parts and bodies. A body that others meet may come back from there by the greatest restitution.
 //!
@@ -90,7 +90,7 @@ pub(super) fn choose(world: &mut World) -> Option<String> {
     told
 }
 
-/// The greatest stiffness in N/m that suits the tick of the scene: a contact of the lightest body lasts long enough.
+/// The greatest stiffness in N/m for the tick of the scene: a contact of the lightest body lasts long enough.
 fn most_for_tick(world: &World) -> f64 {
     let Some(tick) = world.get_resource::<ClockSection>().and_then(|clock| clock.tick) else { return f64::INFINITY };
     let bodies = world.resource::<State>().bodies();
