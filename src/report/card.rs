@@ -10,6 +10,7 @@ use super::advice::{Remedy, RunScales, rounded_down};
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
+use jostle_engine::contacts::search::OverlapAtStart;
 use jostle_engine::contacts::{DeepestOverlap, Overlap};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::StepCount;
@@ -276,7 +277,13 @@ fn largest_joint_drift(state: &State) -> Option<LargestDrift> {
 }
 
 fn told_overlap(world: &World, which: fn(&DeepestOverlap) -> Overlap) -> LargestOverlap {
-    let deepest = which(world.resource::<State>().deepest_overlap());
+    let mut deepest = DeepestOverlap::default();
+    deepest.merge(world.resource::<State>().deepest_overlap());
+    // Contacts do not see bars that cross each other.
+    if let Some(&OverlapAtStart { overlap, share, between }) = world.get_resource() {
+        deepest.merge(&DeepestOverlap::of(Overlap { overlap, share, between: Some(between), time: 0.0 }));
+    }
+    let deepest = which(&deepest);
     let name = |entity| name(world, entity);
     LargestOverlap {
         meters: deepest.overlap,

@@ -1,6 +1,7 @@
 //! Random scenes against independent references, and the stated errors of runs against the true ones.
 
 mod agreement;
+mod breaking;
 mod crowd;
 mod defaults;
 mod defects;
@@ -12,5 +13,6 @@ mod letting_go;
 mod other_kind;
 mod ran;
 mod releases;
+mod soft_contacts;
 mod statements;
 mod tolerances;

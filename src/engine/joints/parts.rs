@@ -9,7 +9,11 @@ use super::limit::{Arrival, Limit, Press};
 use crate::constraints::{RowKind, Rows};
 use crate::scene::Diagnostics;
 use crate::scene::units::{Dimension, Quantity, Scalar};
-use crate::tick::{Bend, Blow, EvaluationMode, Indicator, State};
+use crate::tick::{Bend, Blow, BlowAtJoint, EvaluationMode, Indicator, State};
+use jostle_language::numbers::number;
+
+/// The share of the break force from which on the card tells of a blow.
+const TOLD: f64 = 0.01;
 
 /// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,6 +64,8 @@ pub struct JointParts {
     break_force: Option<f64>,
     /// When it broke, in seconds.
     pub broken: Option<f64>,
+    /// The greatest blow so far, if it has a break force; if a blow broke it, this one.
+    blow: Option<BlowAtJoint>,
     /// The number of rows, of the limit and of friction.
     rows: [usize; 2],
 }
@@ -190,6 +196,43 @@ impl JointParts {
         }
         if let (Some(friction), Some(freedom)) = (&mut self.friction, law.freedom(pair)) {
             friction.after_blow(pair, &freedom.along);
+        }
+    }
+
+    /// The force in N at which it breaks, if it has not broken yet.
+    pub fn break_force(&self) -> Option<f64> {
+        self.break_force.filter(|_| self.broken.is_none())
+    }
+
+    /// Takes a blow, and breaks by it or not.
+    pub fn take_blow(&mut self, blow: BlowAtJoint, breaks: bool) {
+        if breaks {
+            self.broken = Some(blow.time);
+        }
+        if breaks || self.blow.is_none_or(|greatest| blow.force() > greatest.force()) {
+            self.blow = Some(blow);
+        }
+    }
+
+    /// A sentence on whether it has broken, and on its greatest blow.
+    pub fn remark(&self, name: &str) -> Option<String> {
+        let counts = |blow: &BlowAtJoint| {
+            let [impulse, force, time] = [blow.impulse, blow.force(), blow.lasts].map(number);
+            format!(
+                "{impulse} N s. It counts as {force} N, because a blow at a rigid joint counts as if it took {time} s"
+            )
+        };
+        match (self.broken, &self.blow) {
+            (Some(broken), Some(blow)) if blow.time == broken => {
+                Some(format!("the joint `{name}` broke at {} s by a blow of {}", number(broken), counts(blow)))
+            }
+            (Some(broken), _) => Some(format!("the joint `{name}` broke at {} s", number(broken))),
+            (None, Some(blow)) if blow.force() > TOLD * self.break_force.unwrap_or(f64::INFINITY) => Some(format!(
+                "the joint `{name}` bore a blow at {} s. The blow was {}",
+                number(blow.time),
+                counts(blow)
+            )),
+            _ => None,
         }
     }
 

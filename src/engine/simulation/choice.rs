@@ -420,7 +420,11 @@ fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
         let why = "half a swing of the fastest drive lasts at least 40 of them";
         (rhythm.angular_frequency, TICKS_PER_HALF_PERIOD, "drive", why)
     });
-    let all = foreseen.chain(driven);
+    let moved = state.bodies().prescribed.fastest_swing().map(|(_, swing)| {
+        let why = "the fastest path takes at least 40 of them from stop to stop";
+        (PI / swing, TICKS_PER_HALF_PERIOD, "path", why)
+    });
+    let all = foreseen.chain(driven).chain(moved);
     let Some((omega, ticks, what, why)) = all.max_by(|(a, m, ..), (b, n, ..)| (a * m).total_cmp(&(b * n))) else {
         return Ok(coarsest);
     };

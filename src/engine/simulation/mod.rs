@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod choice;
+mod default_stiffness;
 pub mod error;
 mod recorder;
 mod sampler;
@@ -365,6 +366,7 @@ pub fn begin(
     if let Some(mended) = world.remove_resource::<MendedShapes>() {
         world.resource_mut::<Notes>().0.extend(mended.notes());
     }
+    let stiffness = default_stiffness::choose(world);
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);
     }
@@ -373,6 +375,7 @@ pub fn begin(
     for finish in std::mem::take(&mut world.resource_mut::<AfterLoad>().0) {
         finish(world);
     }
+    world.resource_mut::<Notes>().0.extend(stiffness);
     world.resource_mut::<State>().foresee_springs();
     let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;
     if !late.is_empty() {

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::snapshot::{Memory, UnfitSnapshot};
 use super::touch::ContactPoint;
-use super::{EvaluationMode, State, SteadySpring, TimeScales};
+use super::{BlowAtJoint, EvaluationMode, State, SteadySpring, TimeScales};
 use crate::constraints::Rows;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -142,6 +142,14 @@ pub trait Model: Any + Send + Sync {
 
     /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
     fn after_blow(&mut self, _: &mut State) {}
+
+    /// The force in N at which its rows break. Default: they never do.
+    fn break_force(&self) -> Option<f64> {
+        None
+    }
+
+    /// A blow at its rows, which have a break force. `breaks`: they break by it and give no impulse.
+    fn take_blow(&mut self, _: BlowAtJoint, _breaks: bool) {}
 
     /// Before a step over [`State::span`]: chooses the modes that stay fixed in it. In [`EvaluationMode::Frozen`] only events
     /// change the modes of a model that has [`Model::events`]. Such a model does nothing. See [`Model::has_modes`].

@@ -39,9 +39,12 @@ pub struct State {
     pub(super) projected: Rows,
     #[serde(skip)]
     pub(super) projection: Projection,
-    /// Blows that come before the next step.
+    /// Blows that come before the next step, each with the index of its model.
     #[serde(skip)]
-    pub(super) blows: Vec<Blow>,
+    pub(super) blows: Vec<(usize, Blow)>,
+    /// The place in `roles.begin_step` of the model that begins its step.
+    #[serde(skip)]
+    pub(super) acting: usize,
     pub(super) joint_drift: JointDrift,
     pub(super) dead_points: DeadPoints,
     pub(crate) evaluation: Evaluation,
@@ -149,7 +152,9 @@ impl State {
     /// Models choose the modes that stay frozen during the step.
     pub(super) fn begin_step(&mut self) {
         self.turn_to(TickPart::Modes);
+        let mut turns = 0..;
         each!(self, begin_step, model => {
+            self.acting = turns.next().unwrap_or_default();
             if self.stopwatch.is_some() {
                 let is_law = self.outside.law_of(&**model).is_some();
                 self.turn_to(if is_law { TickPart::Rest } else { TickPart::Modes });

@@ -81,6 +81,8 @@ pub struct EstimatedError {
     pub model_until: Option<f64>,
     /// Where runs of the other kind go, if farther than both errors explain.
     pub elsewhere: Option<Elsewhere>,
+    /// The failure of a run with finer steps.
+    pub failed: Option<String>,
     /// Further notes on it.
     pub notes: Vec<String>,
 }
@@ -247,6 +249,7 @@ fn discretisation(
         };
         if let Some(failure) = &twin.failure {
             found.notes.push(format!("the error is not estimated: with finer steps {failure}"));
+            found.failed = Some(failure.to_string());
             return Ok(());
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));

@@ -21,6 +21,14 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
 }
 
+/// The scene goes wrong with finer steps. So the steps of this run are too coarse for it, also if its bodies come to
+/// rest.
+pub(super) fn finer_run_failed(evidence: &Evidence) -> Option<Cause> {
+    let failure = evidence.world.get_resource::<EstimatedError>()?.failed.as_ref()?;
+    let what = format!("a run with finer steps goes wrong: {failure}");
+    Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}
+
 /// The body and the time at which a finer run first goes another way, in words.
 pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
