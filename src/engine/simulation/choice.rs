@@ -74,7 +74,7 @@ pub struct Plan {
 }
 
 impl Plan {
-    /// The error that a step may make as a share of the motion, if the length of steps follows from it. Ticks are then
+    /// The error that a step may make as a share of the motion, if steps follow their error. Ticks are then
     /// only the moments at which the run is read.
     pub fn allowed(&self) -> Option<f64> {
         match self.pace {

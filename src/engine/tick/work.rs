@@ -1,4 +1,4 @@
-//! The work of an evaluation of all forces, as a count that does not depend on the computer or on its load.
+//! The work of an evaluation of all forces. It is a count that does not depend on the computer or on its load.
 //!
 //! The unit is an evaluation of the forces of a world without atoms: about half a microsecond.
 

@@ -90,7 +90,7 @@ fn praise(evidence: &Evidence) -> String {
         return format!("Trust it: all bodies rest. {energy}");
     }
     let places = places(card).unwrap_or_default();
-    if !card.by_ticks() {
+    if card.has_trials() {
         if card.has_tolerance() {
             return format!("Trust it: {places}, as several runs tell.");
         }
