@@ -79,7 +79,7 @@ pub struct EstimatedError {
     pub known_until: Option<f64>,
     /// The time in s from which stiffer contacts lead elsewhere. The error of the model holds until then.
     pub model_until: Option<f64>,
-    /// Where runs of the other kind go, if farther than both errors explain.
+    /// The departure of runs of the other kind, if they go farther than both errors explain.
     pub elsewhere: Option<Elsewhere>,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,

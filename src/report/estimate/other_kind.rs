@@ -1,9 +1,9 @@
 //! Runs of the other kind beside a run whose contacts carried loads that change. Velocity Verlet from tick to tick and
-//! methods that locate events share neither steps nor laws of switching. So a fault of one kind shows as a difference
-//! from the other, while finer runs of the same kind repeat it.
+//! methods that locate events share neither steps nor laws of switching. Finer runs of the same kind repeat a fault,
+//! and runs of the other kind show it.
 //!
-//! A run from tick to tick has one twin with located events in place of one with finer ticks. Events that are located
-//! leave the higher order of that twin, so the whole difference is the error of the first run.
+//! A run from tick to tick has one twin with located events in place of one with finer ticks. That twin is
+//! of a higher order. So the whole difference is the error of the first run.
 //!
 //! A run with located events is far more exact than velocity Verlet, whose error must not become its own. Two runs
 //! from tick to tick tell that error by their difference. Only a larger distance counts.
@@ -30,7 +30,7 @@ const USELESS: f64 = 0.1;
 /// Distances of less than this share of the motion are rounding that contacts magnify.
 const ROUNDING: f64 = 1e-9;
 
-/// Where runs of the other kind go.
+/// The departure of runs of the other kind.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Elsewhere {
     /// The first moment in s at which they are farther away than both errors explain.
@@ -122,8 +122,8 @@ pub(super) fn check(
     Ok(())
 }
 
-/// Where the finer one of two runs from tick to tick is farther from a run than errors explain, with the greatest
-/// difference of velocities in m/s. `None`: nowhere.
+/// The departure of the finer one of two runs from tick to tick, and the greatest difference of velocities in m/s.
+/// `None`: it goes no farther than errors explain.
 fn elsewhere(
     run: &Trajectory,
     coarse: &Trajectory,

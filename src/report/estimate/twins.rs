@@ -5,7 +5,7 @@
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
 //! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
 //! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
-//! except for one in ten of the first run. Where contacts carried loads that change, one twin is of the other kind
+//! except for one in ten of the first run. If contacts carried loads that change, one twin is of the other kind
 //! (`other_kind.rs`).
 
 use super::growth::{Growth, Seen};
@@ -39,8 +39,8 @@ pub(super) struct Finer {
     pub allowed: f64,
 }
 
-/// The method of twins with located events in place of velocity Verlet, and the evaluations of a step beside those of
-/// its stages: it has four, and looks for events in between.
+/// The method of twins with located events in place of velocity Verlet. A step takes so many evaluations: four stages,
+/// and a look for events.
 const LOCATED: &str = "RungeKutta4";
 const EVALUATIONS: f64 = 5.0;
 
@@ -199,8 +199,8 @@ pub(super) fn run(
     })
 }
 
-/// The same by located events. `None` also if the scene does not permit that, if the twin fails, or if some of its ticks
-/// held too many events to locate.
+/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if some of
+/// its ticks held too many events to locate.
 pub(super) fn run_located(
     first: &Simulation,
     how: (Finer, u64),

@@ -88,8 +88,14 @@ fn default_tick(text: &str) -> Option<f64> {
     Some(simulation.clock().dt)
 }
 
-/// Runs a scene in all ways, or in those named, and compares the runs. Each way is told before it begins.
-pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance, tell: impl Fn(&str)) -> Judged {
+/// Runs a scene in all ways that are wanted, by their numbers or names, and compares the runs. Each way is told before it begins.
+pub fn judge(
+    text: &str,
+    wanted: impl Fn(usize, &Way) -> bool,
+    most: u64,
+    chance: &mut Chance,
+    tell: impl Fn(&str),
+) -> Judged {
     let mut judged = Judged::default();
     let tick = match guarded(|| default_tick(text)) {
         Ok(Some(tick)) => tick,
@@ -99,9 +105,9 @@ pub fn judge(text: &str, only: &[String], most: u64, chance: &mut Chance, tell: 
             return judged;
         }
     };
-    let ways = ways::all(tick).into_iter().filter(|way| only.is_empty() || only.contains(&way.name));
+    let ways = ways::all(tick).into_iter().enumerate().filter(|(index, way)| wanted(*index, way));
     let (mut ran, mut failed): (Vec<(Way, Box<Ran>)>, Vec<(String, String)>) = Default::default();
-    for way in ways {
+    for (_, way) in ways {
         judged.runs += 1;
         tell(&way.name);
         match guarded(|| run(text, &way.overrides, most)) {

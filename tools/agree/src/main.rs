@@ -14,11 +14,12 @@ use jostle_agree::judge::{Judged, judge};
 use jostle_agree::language::Language;
 use jostle_agree::minimise::minimise;
 use jostle_agree::scene::{self, Drawn};
+use jostle_agree::ways::Way;
 use jostle_agree::written::scene as written_scene;
 
 /// Evaluations of all forces that a run may take, in a scene of a second and four bodies.
 const MOST_EVALUATIONS: u64 = 2_000_000;
-/// Ways of a scene, for the shares of each.
+/// The exit code of a hunt that found something.
 const EXIT_FOUND: u8 = 1;
 
 /// Draws scenes from all that the registry lists, and runs each under the default, three tolerances, `Reference`, and
@@ -62,9 +63,15 @@ struct Flags {
     /// Seconds of processor time to make a find smaller
     #[arg(long, default_value_t = 0)]
     smaller: u64,
-    /// What a child does: this scene
+    /// The number of the scene of a child
     #[arg(long, hide = true)]
     child: Option<u64>,
+}
+
+impl Flags {
+    fn wants(&self, way: &Way) -> bool {
+        self.ways.is_empty() || self.ways.contains(&way.name)
+    }
 }
 
 /// Prints a line. A reader that reads no further needs to be told nothing.
@@ -81,7 +88,7 @@ fn main() -> ExitCode {
             say!("{} cannot be read", file.display());
             return ExitCode::from(2);
         };
-        let judged = judge(&text, &flags.ways, MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0), |_| {});
+        let judged = judge(&text, |_, way| flags.wants(way), MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0), |_| {});
         for (way, verdict) in &judged.verdicts {
             say!("{way}: {verdict}");
         }
@@ -107,7 +114,7 @@ fn main() -> ExitCode {
     }
 }
 
-/// What the parent reads of a child, a line each.
+/// Prints the lines that the parent reads of a child.
 fn tell(judged: &Judged) {
     for (way, excess, trusted) in &judged.statements {
         say!("statement\t{way}\t{excess:e}\t{trusted}");
@@ -126,10 +133,16 @@ fn child(flags: &Flags, number: u64) {
         say!("drawn\t{section}\t{all}\t{refused}");
     }
     let chance = || Chance::new(flags.seed ^ 0x5eed, number);
-    let judged = judge(&drawn.text(), &flags.ways, MOST_EVALUATIONS, &mut chance(), |way| {
-        // The last line of a child that is ended.
-        say!("at\t{way}");
-    });
+    let judged = judge(
+        &drawn.text(),
+        |_, way| flags.wants(way),
+        MOST_EVALUATIONS,
+        &mut chance(),
+        |way| {
+            // The last line of a child that is ended.
+            say!("at\t{way}");
+        },
+    );
     tell(&judged);
     let (Some(folder), Some(gravest)) = (&flags.out, judged.finds.iter().max_by_key(|find| find.kind)) else { return };
     let text = if flags.smaller > 0 { written_scene(&small(flags, &drawn, &judged)) } else { drawn.text() };
@@ -147,8 +160,13 @@ fn child(flags: &Flags, number: u64) {
 fn small(flags: &Flags, drawn: &Drawn, judged: &Judged) -> Vec<(String, jostle_agree::written::Written)> {
     let Some(gravest) = judged.finds.iter().max_by_key(|find| find.kind) else { return drawn.sections.clone() };
     minimise(drawn.sections.clone(), Duration::from_secs(flags.smaller), |sections| {
-        let judged =
-            judge(&written_scene(sections), &[], MOST_EVALUATIONS, &mut Chance::new(flags.seed ^ 0x5eed, 0), |_| {});
+        let judged = judge(
+            &written_scene(sections),
+            |_, _| true,
+            MOST_EVALUATIONS,
+            &mut Chance::new(flags.seed ^ 0x5eed, 0),
+            |_| {},
+        );
         judged
             .finds
             .iter()
@@ -156,7 +174,7 @@ fn small(flags: &Flags, drawn: &Drawn, judged: &Judged) -> Vec<(String, jostle_a
     })
 }
 
-/// What is known of one way.
+/// The statements of one way, and those of them that are too small.
 #[derive(Default)]
 struct Shares {
     all: u64,

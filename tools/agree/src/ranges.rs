@@ -1,8 +1,8 @@
-//! Plausible numbers: by their dimension, by the bounds that their descriptions tell, and by the example of their entry
-//! where neither tells enough.
+//! Plausible numbers, by their dimension and by the bounds that their descriptions tell. If neither tells enough, the
+//! example of the entry does.
 //!
-//! Scenes are as large as a table: bodies of decimetres and kilograms, forces like their weights, times like those of
-//! their falls. Then all that acts matters.
+//! Scenes are as large as a table. Bodies have decimetres and kilograms, forces are like their weights, and times like
+//! those of their falls. Then all that acts matters.
 
 use crate::chance::Chance;
 

@@ -129,7 +129,7 @@ impl Ran {
         self.stated.is_some() && !withdrawn.iter().any(|words| self.verdict.contains(words))
     }
 
-    /// The greatest distance in m of any point of a body from where it is in another run, while both hold.
+    /// The greatest distance in m of any point of a body from its place in another run, while both hold.
     pub fn apart(&self, other: &Self) -> f64 {
         let until = self.until.min(other.until) / MOMENT * (1.0 + 1e-9);
         let mut apart = 0.0_f64;

@@ -82,7 +82,7 @@ pub fn accepts(sections: &[(String, Written)]) -> bool {
 /// Scene `number` of a seed. It takes at most `longest` seconds.
 pub fn scene(language: &Language, (seed, number): (u64, u64), longest: f64) -> Drawn {
     let mut chance = Chance::new(seed, number);
-    let moments = (chance.scale(0.16, longest.max(0.17)) / (8.0 * MOMENT)).floor().max(1.0) * 8.0;
+    let moments = (chance.scale(0.1, longest.max(0.1)) / (8.0 * MOMENT)).floor().max(1.0) * 8.0;
     let duration = moments * MOMENT;
     let duration = (duration * 100.0).round() / 100.0;
     let clock = Written::Fields(vec![("duration".to_owned(), Written::exactly(duration))]);
@@ -239,7 +239,7 @@ impl Maker<'_> {
         self.language.examples.keys().filter_map(|name| name.strip_prefix(&prefix).map(str::to_owned)).collect()
     }
 
-    /// What bodies lie on: a wall, a table that moves, or nothing.
+    /// Makes the ground of the bodies: a wall, a table that moves, or nothing.
     fn ground(&mut self) -> bool {
         let share = self.chance.between(0.0, 1.0);
         if share < 0.1 {
@@ -461,7 +461,7 @@ impl Maker<'_> {
         if section == "forces" && self.chance.happens(0.6) {
             kinds.retain(|kind| self.changes(section, kind));
         }
-        // What couples joints needs two of them.
+        // Gears between joints need two of them.
         if section == "joints" && self.names.joints.len() > 1 && self.chance.happens(0.7) {
             kinds.retain(|kind| !self.has(section, kind, "a"));
         }
@@ -518,7 +518,7 @@ impl Maker<'_> {
         }
     }
 
-    /// Lets both anchors of a joint stand at one place of the world, so that it is closed at the start.
+    /// Puts both anchors of a joint at one place of the world. So it is closed at the start.
     fn close(&mut self, entry: &mut Written, kind: &str, fields: &mut BTreeSet<String>) {
         let ends = ["a", "b"].map(|end| entry.field(end).and_then(Written::word).map(str::to_owned));
         let [Some(a), Some(b)] = ends else { return };

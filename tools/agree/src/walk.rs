@@ -1,7 +1,7 @@
 //! Values drawn from a schema. Numbers follow from their dimension (`ranges.rs`), names are those of the scene so far.
 //!
-//! A drawn value has the form that the schema asks for. Conditions that the schema does not tell, such as two fields
-//! that exclude each other, are the reader's: it refuses, and the value is drawn again.
+//! A drawn value has the form that the schema asks for. The schema does not tell all conditions, such as two fields that
+//! exclude each other. The reader then refuses, and the caller draws again.
 
 use std::collections::BTreeSet;
 
@@ -48,7 +48,7 @@ pub struct Walk<'a> {
     pub drawn: BTreeSet<String>,
 }
 
-/// Where a value stands.
+/// The place of a value.
 #[derive(Clone)]
 struct Place {
     /// The definition, or the section and entry, to whose fields it belongs.

@@ -13,13 +13,14 @@ use jostle_agree::judge::{GRAVE, Kind, USUAL, judge};
 use jostle_agree::language::Language;
 use jostle_agree::scene::{LEFT_OUT, MADE, SECTIONS, scene};
 use jostle_agree::walk::{Names, Walk, is_left_out, possible};
+use jostle_agree::ways::Way;
 use jostle_agree::written::Written;
 
 /// The seed of the scenes, and how many there are.
 const SEED: u64 = 3;
 const SCENES: u64 = 50;
 /// The longest run in s, and the evaluations of all forces that it may take: fifty scenes take some seconds.
-const LONGEST: f64 = 0.2;
+const LONGEST: f64 = 0.1;
 const MOST_EVALUATIONS: u64 = 20_000;
 /// Draws of each entry that show all its fields.
 const DRAWN: u64 = 300;
@@ -32,7 +33,9 @@ fn fifty_scenes_of_chance_agree_in_all_ways() {
     let (mut statements, mut broken, mut long) = (Vec::new(), Vec::new(), 0);
     for number in 0..SCENES {
         let drawn = scene(&language, (SEED, number), LONGEST);
-        let judged = judge(&drawn.text(), &[], MOST_EVALUATIONS, &mut Chance::new(SEED, number), |_| {});
+        // Each scene runs in the default way and in a third of the others.
+        let ways = |index: usize, _: &Way| index == 0 || index as u64 % 3 == number % 3;
+        let judged = judge(&drawn.text(), ways, MOST_EVALUATIONS, &mut Chance::new(SEED, number), |_| {});
         statements.extend(judged.statements.iter().map(|(_, excess, _)| *excess));
         for find in &judged.finds {
             match find.kind {
@@ -44,7 +47,7 @@ fn fifty_scenes_of_chance_agree_in_all_ways() {
     }
     let many = |least: f64| statements.iter().filter(|excess| **excess > least).count();
     assert!(broken.is_empty(), "{}", broken.join("\n"));
-    assert!(statements.len() > 200, "{} statements", statements.len());
+    assert!(statements.len() > 100, "{} statements", statements.len());
     assert!(100 * many(USUAL) <= statements.len() + 100, "{} of {}", many(USUAL), statements.len());
     assert!(1000 * many(GRAVE) <= statements.len() + 1000, "{} of {}", many(GRAVE), statements.len());
     assert!(long < 20, "{long} runs took too many evaluations");
