@@ -1,5 +1,5 @@
-//! Law: if contacts carry loads that change, a fault of one kind of methods shows in the statement of a run. The fault is a
-//! force from outside that acts only in steps with stages: it moves a body of 1 kg by `F t^2/2`. Velocity Verlet and methods
+//! Law: if contacts carry loads that change, runs state the faults of one kind of methods. The fault is a force from outside
+//! that acts only in steps with stages. It moves a body of 1 kg by `F t^2/2`. Velocity Verlet and methods
 //! that locate events then differ by that way, and each has to state it.
 //!
 //! Tolerance: a hundredth of the way, far above the errors of both methods for a constant force. Not tested: faults in part

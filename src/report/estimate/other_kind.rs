@@ -122,7 +122,7 @@ pub(super) fn check(
     Ok(())
 }
 
-/// The departure of the finer one of two runs from tick to tick, and the greatest difference of velocities in m/s.
+/// The departure of the finer of two runs from tick to tick, and the greatest difference of velocities in m/s.
 /// `None`: it goes no farther than errors explain.
 fn elsewhere(
     run: &Trajectory,

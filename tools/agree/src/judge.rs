@@ -1,5 +1,5 @@
-//! Verdicts on the runs of a scene. No truth is known: runs that agree within the sum of what they state support each
-//! other, and the run with most support stands for the truth.
+//! Verdicts on the runs of a scene. No truth is known. Runs that agree within the sum of their stated errors support each
+//! other. The run with most support stands for the truth.
 
 use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
@@ -15,7 +15,7 @@ pub const GRAVE: f64 = 10.0;
 /// Places in m that differ by no more are rounding, of which runs state nothing unless asked.
 const ROUNDING: f64 = 1e-10;
 
-/// What is wrong.
+/// The kind of a broken promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
     /// A run is wrong by more than three times what it states.
@@ -41,7 +41,7 @@ pub enum Kind {
 /// A broken promise.
 #[derive(Clone, Debug)]
 pub struct Find {
-    /// What is wrong.
+    /// Its kind.
     pub kind: Kind,
     /// The way that is wrong.
     pub way: String,

@@ -22,8 +22,8 @@ const MOST_EVALUATIONS: u64 = 2_000_000;
 /// The exit code of a hunt that found something.
 const EXIT_FOUND: u8 = 1;
 
-/// Draws scenes from all that the registry lists, and runs each under the default, three tolerances, `Reference`, and
-/// `Dop853` and `RungeKutta4` at two ticks each. Two runs that differ by more than three times what both state are a
+/// Draws scenes from all that the registry lists. Each runs under the default, three tolerances, `Reference`, and two
+/// ticks of `Dop853` and `RungeKutta4`. Two runs that differ by more than three times what both state are a
 /// find. So are panics, numbers that are not finite, endless runs, and other bits of a run in pieces.
 ///
 /// Exit codes: 0 nothing found, 1 something found, 2 a file cannot be written.
