@@ -1,5 +1,5 @@
-//! Law: one scene, one motion. Runs of a scene by methods of different kinds differ by no more than they state of their
-//! errors, whatever the registry lists. Factor three is the promise of estimates, ten is grave.
+//! Law: one scene, one motion. Runs of a scene by methods of different kinds differ by no more than their stated errors,
+//! for all that the registry lists. Factor three is the promise of estimates, ten is grave.
 //!
 //! Not tested: what a thousand scenes find, see CONTRIBUTING.md, and packings.
 
@@ -25,8 +25,8 @@ const MOST_EVALUATIONS: u64 = 20_000;
 /// Draws of each entry that show all its fields.
 const DRAWN: u64 = 300;
 
-/// The promise of estimates: one statement in a hundred is more than three times too small, one in a thousand more than
-/// ten times, and none of these is trusted. Of so few statements, single ones are allowed.
+/// The promise of estimates: one statement in a hundred is more than three times too small, and one in a thousand more
+/// than ten times. The verdict trusts none of these. Of so few statements, single ones are allowed.
 #[test]
 fn fifty_scenes_of_chance_agree_in_all_ways() {
     let language = Language::standard();
@@ -53,7 +53,7 @@ fn fifty_scenes_of_chance_agree_in_all_ways() {
     assert!(long < 20, "{long} runs took too many evaluations");
 }
 
-/// What is added to the language takes part without a list of its own. Each section has a place, and each field and
+/// An addition to the language takes part without a list of its own. Each section has a place, and each field and
 /// choice comes up. The reader accepts a draw of each entry.
 #[test]
 fn scenes_of_chance_have_all_that_the_registry_lists() {
