@@ -20,7 +20,7 @@ use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use jostle::tick::{
-    Blow, Departure, Dependence, Energies, EvaluationMode, Events, ForceOn, ForcePart, Indicator, Loss, Model,
+    Bend, Blow, Departure, Dependence, Energies, EvaluationMode, Events, ForceOn, ForcePart, Indicator, Loss, Model,
     Objection, Rhythm, State, SteadySpring, TimeScales,
 };
 use jostle::world::Bodies;
@@ -276,7 +276,7 @@ impl Events for Whole {
         let (place, velocity) = (state.bodies().position[0], state.bodies().velocity[0]);
         let value = if self.turned { 1.0 } else { -place.x };
         let slope = if self.turned { 0.0 } else { -velocity.x };
-        told.push(Indicator { value, slope, bend: 10.0, ..Indicator::default() });
+        told.push(Indicator::new(value, slope, Bend::AtMost(10.0)));
     }
 
     fn switch(&mut self, _: &mut State, _: &[usize]) {
