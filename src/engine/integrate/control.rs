@@ -45,8 +45,8 @@ pub struct Allowance {
     pub longest: f64,
     /// The approximate limit of steps to the end of a tick. If more are needed, the run ends with a message.
     pub most_steps: f64,
-    /// The factor by which steps are shorter that are bounded otherwise than by their error: by `longest`, by the next
-    /// jump of a force, or because they are the first. Two runs that differ in it have no such step in common.
+    /// The factor by which steps without a bound by their error are shorter. Those are bounded by `longest` or by the next
+    /// jump of a force, or are the first. Two runs that differ in it have no such step in common.
     pub shorter: f64,
 }
 
@@ -56,8 +56,8 @@ impl Allowance {
         Self { share, longest, most_steps: MOST_STEPS, shorter: 1.0 }
     }
 
-    /// The same with another share. Errors fall with the power `ORDER` of the step, so that steps bounded otherwise
-    /// become shorter in the same proportion as the others.
+    /// The same with another share. Errors fall with the power `ORDER` of the step. So steps bounded otherwise become
+    /// shorter in the same proportion.
     pub fn with_share(self, share: f64) -> Self {
         let shorter = self.shorter * libm::pow(self.share / share, 1.0 / ORDER);
         Self { share, shorter: shorter.max(1.0), ..self }
@@ -66,7 +66,7 @@ impl Allowance {
 
 /// The power of the step by which errors of the methods that estimate them fall.
 pub const ORDER: f64 = 8.0;
-/// A way to a jump that exceeds a part by less than this share is one part, which rounding made longer.
+/// A way to a jump that exceeds a part by less than this share is one part.
 const WHOLE: f64 = 1e-6;
 
 /// Steps that no tick needs where bodies do not fall upon each other: more take half a minute.

@@ -29,7 +29,7 @@ const DIGITS: [f64; 3] = [5.0, 2.0, 1.0];
 const DIGITS_IN_A_CROWD: [f64; 6] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.0];
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
-/// With more ticks of that length, each is a frame: a film or a table that shows all of them shows no more.
+/// With more ticks of that length, each tick is a frame. A film or a table shows no more.
 const MANY_TICKS: f64 = 1e5;
 /// The error that a step may make as a share of the motion, where the engine chooses method and steps. Some ten
 /// thousand swings then stay right to a millionth. Steps are a third shorter than with ten times that error.

@@ -1,7 +1,7 @@
 //! The stiffness of materials that give none. It grows with the weights and speeds of the scene. The contacts to expect then give
 //! way by little of a radius.
 //!
-//! A body of mass `m` meets a wall with the speed `v`, and then bears the load `L` of other bodies on it. It presses a contact spring
+//! A body of mass `m` meets a wall with the speed `v`. Then it bears the load `L` of other bodies. It presses a contact spring
 //! in by `d`: `k d^2/2 = m v^2/2 + L d`. The bound is `d <= s`, with the share [`DEEPEST`] of the smallest radius that can touch. So
 //! `k = (m v^2 + 2 L s)/s^2`. The load alone then rests at most half as deep, because `k (s/2) = L` if nothing moves. Between two bodies,
 //! both springs are in series, and their masses count as one: `m_a m_b/(m_a + m_b)`.

@@ -12,7 +12,7 @@ use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
 /// The time in s that a blow takes at a joint with a break force. Hard bodies of everyday size touch for about as long. By the law of
-/// Hertz, a steel ball of 5 cm at 1 m/s touches steel for 0.2 ms and wood for 1 ms. It also is the longest tick that the engine
+/// Hertz, a steel ball of 5 cm at 1 m/s touches wood for 1 ms. It also is the longest tick that the engine
 /// chooses. So a load that the joint bears in each tick is no blow.
 pub const BLOW: f64 = 1e-3;
 

@@ -18,7 +18,7 @@ use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
 use jostle_language::numbers::{number, rough};
 
-/// A trial is good if a finer one differs from it by at most this share of the tolerance. Where errors follow a law, the
+/// A trial is good if a finer one differs from it by at most this share of the tolerance. If errors follow a law, the
 /// finer one is good if they differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally
 /// large and alike.
 const MEASURED: f64 = 0.7;
@@ -110,9 +110,9 @@ impl Climb {
 }
 
 impl Climb {
-    /// The fineness of the next trial, at least `least` times that of the last one, which had `next` and took the work
-    /// `taken`. The error asks for `wanted`, as far as a pair of trials tells, or as `sure` as two of them do. `None` if
-    /// no finer trial fits into the work that is left, or surely none that would do.
+    /// The fineness of the next trial. It is at least `least` times that of the last one, which had `next` and took the
+    /// work `taken`. The error asks for `wanted`, and `sure` says that two pairs of trials agree in that. `None` if no
+    /// finer trial fits into the work that is left.
     fn then(&self, (next, least): (f64, f64), (wanted, sure): (f64, bool), (taken, left): (f64, f64)) -> Option<f64> {
         let affordable = next * (taken / left.max(f64::MIN_POSITIVE)).powf(1.0 / self.cost);
         let (finer, needed) = (next * self.finer, wanted.max(self.finest).min(next * self.finer));
