@@ -190,7 +190,7 @@ const BROKEN: [Broken; 27] = [
         r#"clock: (duration: 1), contacts: None, forces: [Attraction(constant: 100)],
            bodies: [(name: "a", at: (0, 0), atoms: Disc(radius: 0.1)), (name: "b", at: (1e-9, 0), atoms: Disc(radius: 0.1))]"#,
         "",
-        &["energy came out of nowhere", "`a` and `b` fall upon each other", "softening"],
+        &["steps have become too short", "`a` and `b` fall upon each other", "softening"],
     ),
     (
         "impacts that ticks do not see",
