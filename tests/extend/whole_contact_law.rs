@@ -20,8 +20,8 @@ use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use jostle::tick::{
-    Bend, Blow, Departure, Dependence, Energies, EvaluationMode, Events, ForceOn, ForcePart, Indicator, Loss, Model,
-    Objection, Rhythm, State, SteadySpring, TimeScales,
+    Bend, Blow, BlowAtJoint, Departure, Dependence, Energies, EvaluationMode, Events, ForceOn, ForcePart, Indicator,
+    Loss, Model, Objection, Rhythm, State, SteadySpring, TimeScales,
 };
 use jostle::world::Bodies;
 use jostle::{Simulation, SimulationExt};
@@ -170,6 +170,15 @@ impl Model for Whole {
     fn settles(&self) -> bool {
         self.called("settles");
         true
+    }
+
+    fn break_force(&self) -> Option<f64> {
+        self.called("break_force");
+        Some(1e12)
+    }
+
+    fn take_blow(&mut self, _: BlowAtJoint, _: bool) {
+        self.called("take_blow");
     }
 
     fn after_blow(&mut self, _: &mut State) {

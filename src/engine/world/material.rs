@@ -185,7 +185,9 @@ impl Materials {
     /// The coefficients of two materials, given by their indices: the means of their frictions, unless `pairs` gives
     /// others. An unknown index counts as the default.
     pub fn pair(&self, a: usize, b: usize) -> PairCoefficients {
-        let default = &self.by_index[0];
+        // A program may have taken all of them out.
+        let neutral = Material::default();
+        let default = self.by_index.first().unwrap_or(&neutral);
         let (first, second) = (self.by_index.get(a).unwrap_or(default), self.by_index.get(b).unwrap_or(default));
         let mean = |of: fn(&Material) -> f64| (of(first) + of(second)) / 2.0;
         let other = self.overrides.get(&ordered(a, b)).copied().unwrap_or_default();
