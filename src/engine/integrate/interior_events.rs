@@ -152,14 +152,18 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
     let way = to.share - from.share;
     let meet = |(a, b): (&Indicator, &Indicator)| {
         let known = !(a.slope.is_nan() || b.slope.is_nan());
-        let (Bend::AtMost(first), Bend::AtMost(second)) = (a.bend, b.bend) else {
-            return fitted(a, b, way * length).filter(|_| known).map(|at| from.share + at * way);
+        let bend = match (a.bend, b.bend) {
+            (Bend::AtMost(first), Bend::AtMost(second)) => {
+                (first.max(second) + (first - second).abs()) * length * length
+            }
+            // Steps resolve the swings of springs: their indicators lie above the tangents at both ends.
+            _ if known && (a.swings > 0.0 || b.swings > 0.0) => 0.0,
+            _ => return fitted(a, b, way * length).filter(|_| known).map(|at| from.share + at * way),
         };
-        let bend = (first.max(second) + (first - second).abs()) * length * length;
-        if a.value >= 0.0 && (vanished(b) || !known && b.value < 0.0) {
+        if a.value > 0.0 && (vanished(b) || !known && b.value < 0.0) {
             let several =
                 if known { returns([a, b], bend, (way, length)) } else { a.value - b.value < 0.5 * bend * way * way };
-            return (several && (known || a.value > 0.0)).then_some(from.share + 0.5 * way);
+            return several.then_some(from.share + 0.5 * way);
         }
         if !(a.value >= 0.0 && b.value >= 0.0 && a.value + b.value > 0.0) {
             return None;
@@ -215,6 +219,9 @@ fn fitted(a: &Indicator, b: &Indicator, length: f64) -> Option<f64> {
     let height = |share: f64| cubic(a, b, length, share) + rounding;
     let mut shares = (1..PARTS).map(|part| part as f64 / PARTS as f64);
     if vanished(b) {
+        if a.value == 0.0 {
+            return None;
+        }
         let passed = shares.find(|share| height(*share) < 0.0)?;
         return shares.any(|share| height(share) > rounding).then_some(passed);
     }
