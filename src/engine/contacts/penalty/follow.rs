@@ -130,7 +130,8 @@ impl<V: Lanes> Followed<V> {
             if V::bits(self.slides) != 0 {
                 lost = V::select(self.slides, self.held * displacement, slipped);
                 springs = acts & !self.slides;
-                if V::bits(self.slides & !self.slips) != 0 {
+                // Friction that never has a spring draws none.
+                if !law.exact && V::bits(self.slides & !self.slips) != 0 {
                     lost = lost - self.draw(law, displacement, acts);
                     elongation = self.elongation;
                 }

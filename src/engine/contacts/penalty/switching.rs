@@ -194,7 +194,8 @@ impl View<'_> {
             let (geometry, bodies) = (self.look(pair as usize), self.bodies);
             let (contact, law, roller) = self.whole(pair as usize, &geometry);
             match (what, roller) {
-                (What::Stop, _) if contact.holds_rigidly(law) => {
+                // Friction that never has a spring keeps no remainder that one could draw.
+                (What::Stop, _) if contact.holds_rigidly(law) && !law.exact => {
                     held.add_tangent(rows, &geometry, law, &contact, bodies);
                     stopped.push(pair);
                 }
