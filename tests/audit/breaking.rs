@@ -56,7 +56,7 @@ fn near(found: f64, exact: f64, tolerance: f64, of: &str) {
 fn a_rope_breaks_by_a_blow_above_its_strength() {
     for overrides in methods() {
         for (mass, slack) in [(5.0, 1.0), (0.02, 0.1), (2000.0, 0.01)] {
-            let speed = (2.0 * G * slack as f64).sqrt();
+            let speed = (2.0 * G * slack).sqrt();
             let time = speed / G;
             for share in [1e-3, 0.9, 1.1, 1e3] {
                 let bears = share * mass * speed / BLOW;
@@ -171,7 +171,7 @@ fn a_blow_breaks_what_passes_it_on() {
 fn what_a_rope_bears_does_not_break_it() {
     for overrides in methods() {
         for (height, angle) in [(0.5, 0.3_f64), (1.0, 0.7), (2.0, 1.2)] {
-            let (mass, up) = (3.0, (2.0 * G * height as f64).sqrt());
+            let (mass, up) = (3.0, (2.0 * G * height).sqrt());
             let (x, y) = (height * libm::sin(angle), -height * libm::cos(angle));
             let swings = mass * G * (3.0 - 2.0 * libm::cos(angle));
             let scene = format!(

@@ -20,12 +20,15 @@ const FEWEST: f64 = 16.0;
 /// The angle in rad of a turn or of a drive from look to look, at most.
 const ANGLE: f64 = 0.2;
 
+/// A look at the world.
+type Look = Box<dyn Fn(&mut World) + Send + Sync>;
+
 /// The sensors that look inside ticks.
 #[derive(Resource, Default)]
 pub(crate) struct Lookers {
     /// Whether they do: in runs whose ticks are frames, and not in their trials.
     inside: bool,
-    looks: Vec<Box<dyn Fn(&mut World) + Send + Sync>>,
+    looks: Vec<Look>,
     /// Whether others read forces at the ends of ticks.
     at_ends: bool,
 }

@@ -143,7 +143,7 @@ fn elsewhere(
     let (mut own, mut found) = (0.0_f64, None::<(Elsewhere, f64)>);
     for ((since, far, fast), (_, other, _)) in run.errors(fine).zip(coarse.errors(fine)) {
         own = own.max(other);
-        if !(own <= USELESS * motion) {
+        if own.is_nan() || own > USELESS * motion {
             break;
         }
         match &mut found {

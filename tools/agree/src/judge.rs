@@ -106,7 +106,8 @@ pub fn judge(
         }
     };
     let ways = ways::all(tick).into_iter().enumerate().filter(|(index, way)| wanted(*index, way));
-    let (mut ran, mut failed): (Vec<(Way, Box<Ran>)>, Vec<(String, String)>) = Default::default();
+    let mut ran: Vec<(Way, Box<Ran>)> = Vec::new();
+    let mut failed: Vec<(String, String)> = Vec::new();
     for (_, way) in ways {
         judged.runs += 1;
         tell(&way.name);

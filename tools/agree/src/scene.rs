@@ -249,7 +249,7 @@ impl Maker<'_> {
             return self.table();
         }
         let walls = if self.chance.happens(0.3) { 2 } else { 1 };
-        (0..walls).fold(false, |any, index| self.wall(index) || any)
+        (0..walls).map(|index| self.wall(index)).fold(false, |any, wall| wall | any)
     }
 
     fn wall(&mut self, index: usize) -> bool {
@@ -444,7 +444,7 @@ impl Maker<'_> {
         };
         sections.push(("sensors".to_owned(), Written::List(others.iter().enumerate().map(clearance).collect())));
         let untried = Overrides { untried: true, ..Overrides::default() };
-        let source = Source::new("drawn.ron", &written_scene(&sections));
+        let source = Source::new("drawn.ron", written_scene(&sections));
         let mut simulation = Simulation::load_with(&source, &untried, |_| {}).ok()?;
         let mut least = f64::INFINITY;
         for index in 0..others.len() {
