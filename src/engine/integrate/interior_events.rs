@@ -372,9 +372,9 @@ mod tests {
     #[test]
     fn a_step_that_ends_below_zero_may_have_passed_before() {
         let height = |t: f64| {
-            let value = 1.0 + 0.9 * libm::cos(12.0 * t + 1.0) - 4.0 * t * t - 0.6;
-            let slope = -0.9 * 12.0 * libm::sin(12.0 * t + 1.0) - 8.0 * t;
-            Indicator::new(value, slope, Bend::AtMost(0.9 * 144.0 + 8.0))
+            let value = 1.0 + 0.9 * libm::cos(12.0 * t + 1.0) - 5.0 * t * t - 0.6;
+            let slope = -0.9 * 12.0 * libm::sin(12.0 * t + 1.0) - 10.0 * t;
+            Indicator::new(value, slope, Bend::AtMost(0.9 * 144.0 + 10.0))
         };
         let (low, high, looks) = look_within(0.5, |t| vec![height(t)]);
         // The first root of the height.
