@@ -15,6 +15,8 @@ const NOTHING_NEW: f64 = 1e-10;
 /// The least measure of an unknown as a share of those that it shares a row with: the root of [`NOTHING_NEW`], so that a row
 /// that only it can satisfy still counts as new.
 const LEAST_MEASURE: f64 = 1e-5;
+/// The measure in newtons of an unknown without capacity among others of that kind: the squares of smaller ones vanish.
+const NO_CAPACITY: f64 = 1e-100;
 
 /// The preferred value of an unknown force.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -121,7 +123,7 @@ fn measures(matrix: &[f64], shares: &[Share]) -> Vec<f64> {
         coupled.fold(0.0_f64, |most, (_, share)| most.max(share.measure))
     };
     let rows = matrix.chunks_exact(shares.len()).zip(shares);
-    rows.map(|(row, share)| share.measure.max(LEAST_MEASURE * beside(row))).collect()
+    rows.map(|(row, share)| share.measure.max(LEAST_MEASURE * beside(row)).max(NO_CAPACITY)).collect()
 }
 
 /// Takes the part along a direction of length one out of a row, and returns its length.
