@@ -11,12 +11,13 @@ use super::at_rest;
 use super::estimate::EstimatedError;
 use super::verdict::{DISTRUST, Evidence};
 use super::warnings::warnings;
+use jostle_engine::contacts::search::OverlapAtStart;
 use jostle_engine::contacts::{DeepestOverlap, Overlap};
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::StepCount;
 use jostle_engine::joints::Joint;
-use jostle_engine::simulation::Simulation;
 use jostle_engine::simulation::error::{ErrorEstimate, KnownError};
+use jostle_engine::simulation::{Plan, Simulation};
 use jostle_engine::tick::Notes;
 use jostle_engine::tick::energy::EnergyLedger;
 use jostle_engine::tick::{Failure, State, largest_travel, stands};
@@ -126,6 +127,9 @@ pub struct Card {
     /// Whether its steps were chosen for an error, and which that was.
     #[serde(skip)]
     asked: Option<Option<f64>>,
+    /// The error that its steps may make, if their length follows from that.
+    #[serde(skip)]
+    allowed: Option<f64>,
 }
 
 /// The error card of a simulation, as a method.
@@ -194,6 +198,7 @@ impl Card {
             given_back,
             stands: stands(state),
             asked: known.map(|known| known.tolerance),
+            allowed: world.get_resource::<Plan>().and_then(Plan::allowed),
         };
         card.notes.extend(estimated.notes);
         card.notes.extend(state.models().flat_map(|model| model.remarks(state)));
@@ -229,6 +234,7 @@ impl Card {
     pub fn remedy(&self) -> Option<Remedy> {
         match self.asked {
             Some(tolerance) => tolerance.map(|tolerance| Remedy::Tolerance(tolerance / 10.0)),
+            None if self.allowed.is_some() => self.allowed.map(Remedy::Tolerance),
             None if self.critical_tick == Some(0.0) => Some(Remedy::Method),
             None => Some(Remedy::Tick(self.known().advised_tick())),
         }
@@ -241,7 +247,12 @@ impl Card {
 
     /// Whether its steps are its ticks, of the requested length.
     pub(super) fn by_ticks(&self) -> bool {
-        self.asked.is_none()
+        self.asked.is_none() && self.allowed.is_none()
+    }
+
+    /// Whether its error is known from trials before it, and not from runs after it.
+    pub(super) fn has_trials(&self) -> bool {
+        self.asked.is_some()
     }
 
     /// The tick with which an error that falls with this power of it becomes `wanted`, rounded as people write it.
@@ -268,7 +279,13 @@ fn largest_joint_drift(state: &State) -> Option<LargestDrift> {
 }
 
 fn told_overlap(world: &World, which: fn(&DeepestOverlap) -> Overlap) -> LargestOverlap {
-    let deepest = which(world.resource::<State>().deepest_overlap());
+    let mut deepest = DeepestOverlap::default();
+    deepest.merge(world.resource::<State>().deepest_overlap());
+    // Contacts do not see bars that cross each other.
+    if let Some(&OverlapAtStart { overlap, share, between }) = world.get_resource() {
+        deepest.merge(&DeepestOverlap::of(Overlap { overlap, share, between: Some(between), time: 0.0 }));
+    }
+    let deepest = which(&deepest);
     let name = |entity| name(world, entity);
     LargestOverlap {
         meters: deepest.overlap,

@@ -6,6 +6,7 @@ use super::advice::Remedy;
 use super::card::name;
 use super::estimate::EstimatedError;
 use jostle_engine::integrate::ChosenMethod;
+use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::error::KnownError;
 use jostle_engine::tick::{EvaluationMode, State, TimeScales, far_travel};
 use jostle_language::numbers::number;
@@ -26,6 +27,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
     // If steps follow their error, ticks are only moments at which the run is read.
     let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
+    let by_ticks = by_ticks && world.get_resource::<Plan>().and_then(Plan::allowed).is_none();
     let by_ticks = by_ticks && !EstimatedError::is_small(world);
     let time_scales = if by_ticks { time_scales } else { TimeScales::default() };
     let beyond = time_scales.fastest.filter(|fastest| clock.dt > fastest.critical_tick(stability));

@@ -2,11 +2,19 @@
 
 mod agreement;
 mod begins_at_rest;
+mod breaking;
 mod crowd;
+mod defaults;
 mod defects;
 mod draw;
+mod fast_sensors;
 mod impact;
 mod indeterminate;
 mod landings;
+mod letting_go;
+mod other_kind;
 mod ran;
+mod releases;
+mod soft_contacts;
 mod statements;
+mod tolerances;

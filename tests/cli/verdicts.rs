@@ -190,13 +190,13 @@ const BROKEN: [Broken; 27] = [
         r#"clock: (duration: 1), contacts: None, forces: [Attraction(constant: 100)],
            bodies: [(name: "a", at: (0, 0), atoms: Disc(radius: 0.1)), (name: "b", at: (1e-9, 0), atoms: Disc(radius: 0.1))]"#,
         "",
-        &["energy came out of nowhere", "`a` and `b` fall upon each other", "softening"],
+        &["steps have become too short", "`a` and `b` fall upon each other", "softening"],
     ),
     (
         "impacts that ticks do not see",
         r#"clock: (duration: 20, tick: 0.001, method: VelocityVerlet), gravity: (0, -10), FLOOR,
            materials: { "m": (stiffness: 8e3, restitution: 1) },
-           bodies: [(name: "ball", at: (0, 1), material: "m", atoms: Disc(radius: 0.1, mass: 1))]"#,
+           bodies: [(name: "ball", at: (0, 1.9), material: "m", atoms: Disc(radius: 1, mass: 1))]"#,
         "",
         &["contacts begin and end inside ticks", "`ball` first", "--tolerance"],
     ),
@@ -271,7 +271,7 @@ fn a_stiffness_as_high_as_advised_makes_overlaps_small() {
             .unwrap();
         let card = folder.jostle(&format!("run hard.ron --json --tick {tick}")).json().remove(0)["card"].clone();
         let share = card["largest_overlap"]["share_of_radius"].as_f64().unwrap();
-        assert!(share <= 0.11, "{verdict}: {share}");
+        assert!(share <= 0.055, "{verdict}: {share}");
         assert!(!card["verdict"].as_str().unwrap().contains("the model at contacts"), "{}", card["verdict"]);
     }
 }
@@ -303,9 +303,16 @@ fn the_verdict_speaks_with_one_voice() {
 #[test]
 fn nothing_is_blamed_where_nothing_is_wrong() {
     let folder = Folder::new("verdict_good");
-    for scene in ["projectile", "bounce", "incline", "kepler", "solar_system"] {
+    for scene in ["projectile", "incline", "kepler", "solar_system"] {
         folder.jostle(&format!("run example:{scene} --estimate")).code(0).says("\n  Trust it: places to about ");
     }
+    // Its balls go in by a seventh of a radius. All else is trusted.
+    let verdict =
+        folder.jostle("run example:bounce --estimate --json").code(0).json().remove(0)["card"]["verdict"].clone();
+    let verdict = verdict.as_str().unwrap();
+    assert!(verdict.starts_with("Trust energy ") && verdict.contains("places to about "), "{verdict}");
+    assert_eq!(verdict.matches("Do not trust").count(), 1, "{verdict}");
+    assert!(verdict.contains("Do not trust the model at contacts: bodies overlap by 15 % of a radius"), "{verdict}");
 }
 
 /// A mechanism that stands is not blamed for the rounding of the forces that hold it.

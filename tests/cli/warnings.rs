@@ -105,5 +105,5 @@ fn the_advice_suits_the_run() {
         let card = said(flags);
         assert!(!card.contains("--tick"), "{flags}: {card}");
     }
-    assert!(said("--tick 1ms").contains("--tick 0.00025"));
+    assert!(said("--tick 1ms").contains("--tick 0.0002"));
 }

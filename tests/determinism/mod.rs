@@ -6,6 +6,7 @@
 //!
 //! Not tested: other machines.
 
+mod batches;
 mod changes;
 mod levels;
 mod pinned;

@@ -11,7 +11,7 @@ use bevy_app::App;
 use jostle::problems::Truth;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::{Energies, EvaluationMode, Events, Indicator, Model, State, SteadySpring, TickAppExt};
+use jostle::tick::{Bend, Energies, EvaluationMode, Events, Indicator, Model, State, SteadySpring, TickAppExt};
 use jostle::{Simulation, SimulationExt};
 
 /// Where a swing stands.
@@ -90,16 +90,11 @@ impl Events for Escapement {
         // A pendulum speeds up by `w^2` rad/s2 per rad at most, and its jerk is so much per rad/s.
         let swings = GRAVITY * ARM * MASS;
         let slope = -self.sign * spin;
-        let until = |value: f64| Indicator { value, slope, bend: swings, ..Indicator::default() };
+        let until = |value: f64| Indicator::new(value, slope, Bend::AtMost(swings));
         told.push(match self.phase {
             Phase::Before => until(-self.from - self.sign * angle),
             Phase::Impulse => until(self.to - self.sign * angle),
-            Phase::After => Indicator {
-                value: self.sign * spin,
-                slope: self.sign * spin_rate,
-                bend: swings,
-                ..Indicator::default()
-            },
+            Phase::After => Indicator::new(self.sign * spin, self.sign * spin_rate, Bend::AtMost(swings)),
         });
     }
 

@@ -14,3 +14,4 @@ mod mixed;
 mod replaced_system;
 mod rows;
 mod snapshot;
+mod whole_contact_law;

@@ -152,7 +152,7 @@ pub(super) const WORDS: &[Word] = &[
          and a remedy. `Trust it`: the engine looked for causes of doubt and found none. `Do not trust \
          it`: the run does not compute the scene, and the verdict names the cause. Otherwise you can trust energy, \
          statistics, rest and places, except for those that it doubts. It doubts `the model at contacts` if bodies \
-         overlap by more than half a radius: such contacts are too soft for the scene. Causes come before \
+         overlap by more than a tenth of a radius: such contacts are too soft for the scene. Causes come before \
          their effects. They are a tick above the critical one, overlaps at the start, drag, and places too far from the \
          origin. They are also forces that swing too fast, missing energy, a tolerance not reached, deep overlaps, and \
          brief contacts. The last ones are travel beyond a radius, chaos, a tick too long for the motion, and no estimate.",

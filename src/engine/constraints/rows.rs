@@ -14,6 +14,8 @@ use serde::{Deserialize, Serialize};
 
 /// A share of a force that counts as rounding.
 const ROUNDING: f64 = 1e-12;
+/// A pull below this share of all forces of rows may be an error of the events that end them.
+const PULL: f64 = 1e-6;
 /// Rows of joints round by less: their part of that share.
 const OF_JOINTS: f64 = 0.01;
 
@@ -145,6 +147,15 @@ impl Rows {
     /// The force of a row in newtons, or its torque in N m; positive on side B along its direction.
     pub fn force(&self, index: usize) -> f64 {
         self.answer[index]
+    }
+
+    /// The row that only pushes and would have to pull most. Rounding is a small share of all forces together.
+    pub fn pulling(&self) -> Option<&Row> {
+        let pull = |(row, force): (&Row, &f64)| -row.pushes * force;
+        let pulls = self.rows.iter().zip(&self.answer).map(pull).enumerate();
+        let (index, worst) = pulls.max_by(|a, b| a.1.total_cmp(&b.1))?;
+        let all: f64 = self.answer.iter().map(|force| force.abs()).sum();
+        (worst > PULL * all).then(|| &self.rows[index])
     }
 
     /// The sum of the absolute accelerations (m/s2 or rad/s2) of a row by the forces of each of these rows. Rounding is

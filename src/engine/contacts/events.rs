@@ -11,7 +11,7 @@ use bevy_ecs::prelude::*;
 
 use serde::{Deserialize, Serialize};
 
-use crate::tick::{Notes, State, add_packed_observer};
+use crate::tick::{Notes, State, add_observer};
 
 /// A body and another body or a wall. In canonical order the first of two bodies precedes the second. A wall is second.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -72,7 +72,7 @@ pub fn watch(world: &mut World) {
     state.touches.get_or_insert_default();
     // An evaluation finds the pairs that touch from the beginning, even if all bodies sleep.
     state.bodies.touched = true;
-    add_packed_observer(world, find_contact_events.in_set(FindContactEvents));
+    add_observer(world, find_contact_events.in_set(FindContactEvents));
 }
 
 fn find_contact_events(

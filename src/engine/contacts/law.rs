@@ -1,7 +1,7 @@
 //! Contact laws from outside the crate, and their results on the card. Overlap and critical tick are measured beside
 //! such a law, so that the card misses none.
 
-use std::any::Any;
+use std::marker::PhantomData;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -11,11 +11,7 @@ use super::geometry::PairGeometry;
 use super::{Probe, Surface, search};
 use crate::tick::critical_step::{Spring, Springs};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::touch::ContactPoint;
-use crate::tick::{
-    Departure, Dependence, Energies, EvaluationMode, Events, Fastest, Holder, Model, Objection, Rhythm, State,
-    SteadySpring, TickAppExt, TimeScales,
-};
+use crate::tick::{Dependence, Energies, Fastest, Holder, Model, State, SteadySpring, TimeScales};
 
 /// Ticks from one look at how fast the touching pairs respond together to the next.
 const PATIENCE: u64 = 64;
@@ -55,68 +51,54 @@ pub trait ContactLaw: Model {
 
 /// Adds a contact law with the search for pairs, and the results of contacts on the card. These are the deepest
 /// overlap, the elastic energy and the critical tick.
-pub fn add_law(app: &mut App, law: impl ContactLaw) {
+pub fn add_law<L: ContactLaw>(app: &mut App, law: L) {
     search::plugin(app);
-    app.add_model(Watched { law, found: TimeScales::default(), springs: Springs::default(), next: 0 });
+    let name = law.law();
+    let mut state = app.world_mut().resource_mut::<State>();
+    state.add_model(LawWatch::<L>::default());
+    state.add_contact_law(law, name);
 }
 
-/// A law from outside, and the measured response of its contacts.
-struct Watched<L> {
-    law: L,
+/// Looks at the contacts of a law from outside, and measures their response. It makes no force.
+struct LawWatch<L> {
     found: TimeScales,
     springs: Springs,
     next: u64,
+    law: PhantomData<fn() -> L>,
 }
 
-impl<L: ContactLaw> Model for Watched<L> {
+impl<L> Default for LawWatch<L> {
+    fn default() -> Self {
+        Self { found: TimeScales::default(), springs: Springs::default(), next: 0, law: PhantomData }
+    }
+}
+
+impl<L: ContactLaw> Model for LawWatch<L> {
     fn name(&self) -> &'static str {
-        self.law.name()
+        "contacts::LawWatch"
     }
 
     fn save(&self) -> Memory {
-        match self.law.save() {
-            Memory::Untold => Memory::Untold,
-            Memory::Nothing => Memory::of(&(None::<Vec<u8>>, self.found, self.next)),
-            Memory::Bytes(bytes) => Memory::of(&(Some(bytes), self.found, self.next)),
-        }
+        Memory::of(&(self.found, self.next))
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
-        let law: Option<Vec<u8>>;
-        (law, self.found, self.next) = recall(bytes)?;
-        law.map_or(Ok(()), |bytes| self.law.load(&bytes))
+        (self.found, self.next) = recall(bytes)?;
+        Ok(())
     }
 
-    fn energies(&self, state: &State) -> Energies {
-        self.law.energies(state)
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
     }
 
-    fn stiffness(&self, state: &State, springs: &mut Vec<SteadySpring>) {
-        self.law.stiffness(state, springs);
-    }
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
 
     fn dependence(&self) -> Dependence {
-        self.law.dependence()
+        Dependence::Nothing
     }
 
-    fn contact_law(&self) -> Option<&'static str> {
-        Some(self.law.law())
-    }
-
-    fn start(&mut self, world: &mut World) {
-        self.law.start(world);
-    }
-
-    fn apply_forces(&mut self, state: &mut State) {
-        self.law.apply_forces(state);
-    }
-
-    fn settles(&self) -> bool {
-        self.law.settles()
-    }
-
-    fn settle(&mut self, state: &mut State) {
-        self.law.settle(state);
+    fn flies(&self) -> bool {
+        true
     }
 
     fn looks_at_ticks(&self) -> bool {
@@ -124,94 +106,42 @@ impl<L: ContactLaw> Model for Watched<L> {
     }
 
     fn end_tick(&mut self, state: &mut State) {
-        self.law.end_tick(state);
-        self.watch(state);
-    }
-
-    fn finds_pairs(&self) -> bool {
-        self.law.finds_pairs()
-    }
-
-    fn find_pairs(&mut self, state: &mut State) {
-        self.law.find_pairs(state);
-    }
-
-    fn rhythm(&self) -> Option<Rhythm> {
-        self.law.rhythm()
-    }
-
-    fn has_modes(&self) -> bool {
-        self.law.has_modes()
-    }
-
-    fn begin_step(&mut self, state: &mut State) {
-        self.law.begin_step(state);
+        let touching = if state.model::<L>().is_some() { touching(state) } else { Vec::new() };
+        note_deepest(state, &touching);
+        if touching.is_empty() || state.clock.ticks < self.next {
+            return;
+        }
+        self.next = state.clock.ticks + PATIENCE;
+        self.measure(state, &touching);
     }
 
     fn time_scales(&self) -> TimeScales {
         self.found
     }
+}
 
-    fn events(&mut self) -> Option<&mut dyn Events> {
-        self.law.events()
-    }
-
-    fn has_edges(&self) -> bool {
-        self.law.has_edges()
-    }
-
-    fn next_edge(&self, now: f64) -> f64 {
-        self.law.next_edge(now)
-    }
-
-    fn objection(&self, mode: EvaluationMode) -> Option<Objection> {
-        self.law.objection(mode)
-    }
-
-    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
-        self.law.departures(state, mode)
-    }
-
-    fn remarks(&self, state: &State) -> Vec<String> {
-        self.law.remarks(state)
-    }
-
-    fn contact_points(&self, state: &State) -> Option<Vec<ContactPoint>> {
-        self.law.contact_points(state)
-    }
-
-    fn inner(&self) -> Option<&dyn Any> {
-        Some(&self.law)
-    }
-
-    fn inner_mut(&mut self) -> Option<&mut dyn Any> {
-        Some(&mut self.law)
+/// Notes the deepest overlap.
+fn note_deepest(state: &mut State, touching: &[LawTouch]) {
+    let time = state.clock.time();
+    let State { bodies, deepest, .. } = state;
+    for pair in touching {
+        let entity = |atom: usize| bodies.entity[bodies.atom_body(atom)];
+        let (first, smaller) = match pair.a {
+            LawSide::Atom(a) => (entity(a), bodies.atom_radius[a].min(bodies.atom_radius[pair.b])),
+            LawSide::Hull(hull) => {
+                let packed = &bodies.hulls[hull];
+                (bodies.entity[packed.body as usize], packed.half_width.min(bodies.size_of_atom(pair.b)))
+            }
+            LawSide::Wall(wall) => (bodies.walls[wall].entity, bodies.size_of_atom(pair.b)),
+        };
+        deepest.note(pair.overlap, smaller, time, || (first, entity(pair.b)));
     }
 }
 
-impl<L: ContactLaw> Watched<L> {
-    /// Notes the deepest overlap, and now and then the response of the contacts.
-    fn watch(&mut self, state: &mut State) {
-        let touching = touching(state);
-        let (ticks, time) = (state.clock.ticks, state.clock.time());
-        let State { bodies, deepest, .. } = state;
-        for pair in &touching {
-            let entity = |atom: usize| bodies.entity[bodies.atom_body(atom)];
-            let (first, smaller) = match pair.a {
-                LawSide::Atom(a) => (entity(a), bodies.atom_radius[a].min(bodies.atom_radius[pair.b])),
-                LawSide::Hull(hull) => {
-                    let packed = &bodies.hulls[hull];
-                    (bodies.entity[packed.body as usize], packed.half_width.min(bodies.size_of_atom(pair.b)))
-                }
-                LawSide::Wall(wall) => (bodies.walls[wall].entity, bodies.size_of_atom(pair.b)),
-            };
-            deepest.note(pair.overlap, smaller, time, || (first, entity(pair.b)));
-        }
-        if touching.is_empty() || ticks < self.next {
-            return;
-        }
-        self.next = ticks + PATIENCE;
-        let bodies = &state.bodies;
+impl<L: ContactLaw> LawWatch<L> {
+    /// Measures how fast the contacts respond together.
+    fn measure(&mut self, state: &State, touching: &[LawTouch]) {
+        let (Some(law), bodies, time) = (state.model::<L>(), &state.bodies, state.clock.time()) else { return };
         let side = |atom: usize| {
             let body = bodies.atom_body(atom);
             (body, bodies.atom_place(atom) - bodies.position[body])
@@ -228,7 +158,7 @@ impl<L: ContactLaw> Watched<L> {
             },
             b: side(pair.b),
             normal: pair.normal,
-            stiffness: self.law.pair_stiffness(state, pair),
+            stiffness: law.pair_stiffness(state, pair),
             damped: 0.0,
             turning: 0.0,
         };

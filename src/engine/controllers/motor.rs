@@ -104,6 +104,7 @@ impl Model for MotorRow {
     /// Between ticks the torque of the last evaluation decides, and the rate that is reached.
     fn begin_step(&mut self, state: &mut State) {
         let Some(motion) = self.driven.motion(&state.bodies) else { return };
+        self.held.accept(&motion.pair, &motion.along);
         if state.evaluation().mode == EvaluationMode::Frozen {
             return;
         }
@@ -191,6 +192,6 @@ impl Events for MotorRow {
 
     fn settle(&mut self, state: &State) -> bool {
         let Some(motion) = self.driven.motion(state.bodies()) else { return false };
-        self.held.choose(&motion.pair, &motion.along)
+        self.held.settle(&motion.pair, &motion.along, state)
     }
 }

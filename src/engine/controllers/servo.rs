@@ -24,7 +24,7 @@ use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{
-    Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
+    Bend, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
 };
 
 /// Drives a hinge to an angle, or a slide to a position. Its torque (force) has three terms: `kp (target - angle)`, `ki`
@@ -382,10 +382,8 @@ impl Events for ServoForce {
     fn tell(&mut self, state: &State, told: &mut Vec<Indicator>) {
         let Some(Wanted { torque, slope, size }) = self.look(state) else { return };
         let told_of = |sign: f64, limit: f64| Indicator {
-            value: limit + sign * torque,
-            slope: sign * slope,
             rounding: ROUNDING * size,
-            ..Indicator::default()
+            ..Indicator::new(limit + sign * torque, sign * slope, Bend::Fitted)
         };
         match self.mode {
             Mode::Follows => told.extend([-1.0, 1.0].map(|sign| told_of(sign, self.limit))),

@@ -12,7 +12,7 @@ use serde::Serialize;
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::energy::EnergyLedger;
 use crate::tick::snapshot::{Memory, UnfitSnapshot, Unsaved};
-use crate::tick::{State, add_looker};
+use crate::tick::{State, add_looker, read_forces_at_ends};
 use crate::world::Bodies;
 
 /// The view of an expectation.
@@ -120,7 +120,10 @@ impl Expectations {
         match (first, needs_world) {
             (false, _) => {}
             (true, false) => add_looker(app.world_mut(), observe_state),
-            (true, true) => add_looker(app.world_mut(), observe_world),
+            (true, true) => {
+                add_looker(app.world_mut(), observe_world);
+                read_forces_at_ends(app.world_mut());
+            }
         }
     }
 

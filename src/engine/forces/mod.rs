@@ -23,6 +23,7 @@ pub use applied_at::AppliedAt;
 pub use targets::{Targets, check_targets};
 
 use crate::scene::{Arity, SceneAppExt};
+use crate::tick::State;
 
 /// Registers the forces of this folder. The order here is the order of the sums.
 pub fn plugin(app: &mut App) {
@@ -39,4 +40,10 @@ pub fn plugin(app: &mut App) {
         .add_plugins(torsion_spring::plugin)
         .add_plugins(drive::plugin)
         .add_plugins(firing_solution::plugin);
+}
+
+/// Whether a force of this folder slows bodies by the resistance of air, at rest or moving.
+pub fn resists(state: &State) -> bool {
+    let moving = state.models_of::<wind::Gust>().next().is_some();
+    moving || state.models_of::<drag::DragForce>().next().is_some()
 }

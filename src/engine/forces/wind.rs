@@ -58,7 +58,8 @@ impl Entry for Wind {
     }
 }
 
-struct Gust {
+/// One entry, ready to be applied.
+pub(super) struct Gust {
     velocity: DVec2,
     linear: f64,
     quadratic: f64,

@@ -45,7 +45,29 @@ pub struct Allowance {
     pub longest: f64,
     /// The approximate limit of steps to the end of a tick. If more are needed, the run ends with a message.
     pub most_steps: f64,
+    /// The factor by which steps without a bound by their error are shorter. Those are bounded by `longest` or by the next
+    /// jump of a force, or are the first. Two runs that differ in it have no such step in common.
+    pub shorter: f64,
 }
+
+impl Allowance {
+    /// The allowance of a run that may take `longest` seconds for a step.
+    pub fn new(share: f64, longest: f64) -> Self {
+        Self { share, longest, most_steps: MOST_STEPS, shorter: 1.0 }
+    }
+
+    /// The same with another share. Errors fall with the power `ORDER` of the step. So steps bounded otherwise become
+    /// shorter in the same proportion.
+    pub fn with_share(self, share: f64) -> Self {
+        let shorter = self.shorter * libm::pow(self.share / share, 1.0 / ORDER);
+        Self { share, shorter: shorter.max(1.0), ..self }
+    }
+}
+
+/// The power of the step by which errors of the methods that estimate them fall.
+pub const ORDER: f64 = 8.0;
+/// A way to a jump that exceeds a part by less than this share is one part.
+const WHOLE: f64 = 1e-6;
 
 /// Steps that no tick needs where bodies do not fall upon each other: more take half a minute.
 pub const MOST_STEPS: f64 = 1e7;
@@ -65,6 +87,9 @@ pub(super) struct Control {
     measures: Vec<f64>,
     /// Whether the last step was allowed more than was asked for, because of rounding.
     bounded: bool,
+    /// The next jump of a force in s, and the longest part in s of the way to it.
+    jump: f64,
+    part: f64,
 }
 
 impl Control {
@@ -77,6 +102,8 @@ impl Control {
             next: None,
             measures: Vec::new(),
             bounded: false,
+            jump: f64::INFINITY,
+            part: f64::INFINITY,
         }
     }
 
@@ -85,9 +112,20 @@ impl Control {
         self.next = None;
     }
 
-    /// The longest step that is tried.
-    pub fn longest(&self) -> f64 {
-        self.next.map_or(self.allowance.longest, |next| next.min(self.allowance.longest))
+    /// The longest step in s that is tried from `now`, if forces jump at `jump` next. The way to a jump is divided into
+    /// equal parts, one for a run without finer ones beside it.
+    pub fn longest(&mut self, now: f64, jump: f64) -> f64 {
+        if jump != self.jump {
+            (self.jump, self.part) = (jump, (jump - now) / self.allowance.shorter.ceil());
+        }
+        let part = if jump - now > (1.0 + WHOLE) * self.part { self.part } else { f64::INFINITY };
+        let longest = (self.allowance.longest / self.allowance.shorter).min(part);
+        self.next.map_or(longest, |next| next.min(longest))
+    }
+
+    /// The factor by which steps are shorter that are bounded otherwise than by their error.
+    pub fn shorter(&self) -> f64 {
+        self.allowance.shorter
     }
 
     /// The most steps that may be needed to the end of a tick.
@@ -154,7 +192,7 @@ impl Control {
             flow.measures(distance, speed, &mut self.measures);
             let bends = rates.iter().zip(&after).zip(&self.measures);
             let bend = bends.map(|((before, after), size)| (after - before).abs() / (probe * size)).fold(0.0, f64::max);
-            let guess = (BEND * allowed).min(MOST_BEND) / bend.sqrt();
+            let guess = (BEND * allowed).min(MOST_BEND / self.allowance.shorter) / bend.sqrt();
             length = if guess.is_finite() && guess < length { guess } else { length };
         }
         length
@@ -171,6 +209,10 @@ impl Control {
     /// the reach at its beginning, its length in seconds, and the change it made of the state.
     pub fn error(&mut self, method: &dyn OneStep, flow: &mut WorldFlow, made: (Reach, f64, &[f64])) -> Option<f64> {
         let (reach, length, change) = made;
+        if change.iter().any(|change| !change.is_finite()) {
+            // Sizes would be infinite with it, and no error is large beside them.
+            return Some(f64::INFINITY);
+        }
         let (distance, speed) = self.sizes(reach, length);
         // Bodies on which nothing acted at the beginning go as far as the step took them.
         let (far, fast) = flow.sizes_of(change);

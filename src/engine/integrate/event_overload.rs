@@ -112,6 +112,9 @@ impl EventOverload {
                 tick.choose_modes(begin, end);
                 VelocityVerlet.advance(tick);
             });
+            if part < parts {
+                tick.look(end);
+            }
             begin = end;
         }
     }

@@ -8,11 +8,14 @@
 
 use glam::DVec2;
 
+mod inner_looks;
+
 use super::control::{Allowance, Control, MOST_STEPS};
 use super::event_free_ticks::EventFreeTicks;
 use super::event_overload::EventOverload;
-use super::interior_events::Inside;
+use super::interior_events::{Inside, StageValues};
 use super::locate::{Bracket, IndicatorSample, vanished};
+use super::step_bounds::{longest_among_many, longest_under_loads, rounding_of_time};
 use super::steps::{Divided, OneStep, Start};
 use crate::tick::Flow;
 use crate::tick::Integrator;
@@ -27,10 +30,10 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
 
-/// In scenes of more atoms than this a step moves no body farther than `MOST_RADII` smallest radii. Each stage visits
-/// all pairs that a step may bring together, and an event ends it soon.
-const MANY_ATOMS: usize = 64;
-const MOST_RADII: f64 = 8.0;
+/// The number of times that a step whose trial overflows is shortened, and the share that remains each time. A sum of forces
+/// that has no bound at the beginning of the step keeps overflowing, and the run ends with an error.
+const MOST_OVERFLOWS: u32 = 30;
+const AFTER_OVERFLOW: f64 = 0.25;
 
 /// Steps between two looks at how far they lead.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
@@ -197,11 +200,11 @@ impl EventStepper {
     /// its end is the present one, and evaluated. `None`: too many indicators vanish, and the state is the one of the beginning.
     fn make(&mut self, flow: &mut WorldFlow, from: f64, until: f64) -> Option<Made> {
         self.begin(flow);
-        let mut until = until;
+        let mut until = until.min(from + longest_under_loads(flow, &self.work.indicators, from));
         if let Some(control) = &mut self.control {
             control.look(flow);
             let start = (from, self.state.as_slice(), self.work.rates.as_slice());
-            let near = longest_among_many(flow);
+            let near = longest_among_many(flow) / control.shorter();
             let length = control.length(flow, self.method.order_of_error(), start, near.min(until - from));
             until = if length < until - from { from + length } else { until };
             flow.write(&self.state);
@@ -218,6 +221,20 @@ impl EventStepper {
             self.begin(flow);
         }
         let mut made = self.attempt(flow, from, until);
+        for _ in 0..MOST_OVERFLOWS {
+            let shorter = from + AFTER_OVERFLOW * (until - from);
+            if made.is_none() || shorter <= from || self.work.trial.iter().all(|value| value.is_finite()) {
+                break;
+            }
+            // The modes may end long before: forces of frozen modes need not stay bounded behind their end.
+            until = shorter;
+            flow.write(&self.state);
+            flow.tick.recall_bounds();
+            flow.tick.renew_lists(from);
+            flow.tick.reserve(until - from, reach_of_lists);
+            self.begin(flow);
+            made = self.attempt(flow, from, until);
+        }
         for _ in 0..MOST_RENEWALS {
             if !flow.tick.outgrown() {
                 break;
@@ -254,12 +271,16 @@ impl EventStepper {
         let Work { rates, change, trial, indicators, .. } = &mut self.work;
         let start = Start { time: from, state: &self.state, rates };
         let (method, rest) = (&mut self.method, &self.rest);
+        let sampled = indicators.iter().any(Indicator::is_sampled);
+        let mut stages = Vec::new();
         let mut rejected = 0_u64;
         if let Some(control) = &mut self.control {
             let (reach, order) = (flow.reach(), method.order_of_error());
             loop {
                 let length = until - from;
+                flow.record_stages(sampled);
                 method.step(flow, start, length, change);
+                stages = flow.recorded_stages();
                 let mut error = control.error(&**method, flow, (reach, length, change.as_slice())).unwrap_or_default();
                 if error > 1.0 && flow.tick.changes_with_time() {
                     error = control.error_beside(&**method, &rounding_of_time(flow, start, length)).unwrap_or_default();
@@ -306,11 +327,16 @@ impl EventStepper {
             }
         };
         let (mut told, mut share, mut fired) = (Vec::new(), 1.0, Vec::new());
+        flow.record_stages(sampled && !controlled);
         reach(flow, share, &mut told);
+        if !controlled {
+            stages = flow.recorded_stages();
+        }
         if !self.overload.bears(told.iter().filter(|indicator| vanished(indicator)).count()) {
             return None;
         }
-        let mut inside = Inside::of(indicators, &told, length);
+        let share_of = |(time, values)| StageValues { share: (time - from) / length, values };
+        let mut inside = Inside::of(indicators, &told, stages.into_iter().map(share_of).collect(), length);
         while let Some(next) = inside.next() {
             share = next;
             reach(flow, next, &mut told);
@@ -356,12 +382,13 @@ impl EventStepper {
 
     /// The end of the next step from `now`, and whether an edge of a force ends it. The `part` is the index of a whole
     /// part of the tick.
-    fn target(&self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
+    fn target(&mut self, tick: &Tick, now: f64, part: u32) -> (f64, bool) {
         let edge = tick.next_edge(now);
-        let end = match &self.control {
-            // A prescribed motion is given from tick to tick.
-            Some(control) if tick.state().bodies.prescribed.motions.is_empty() => now + control.longest(),
-            Some(control) => tick.end.min(now + control.longest()),
+        // A prescribed motion is given from tick to tick.
+        let by_ticks = !tick.state().bodies.prescribed.motions.is_empty();
+        let end = match &mut self.control {
+            Some(control) if by_ticks => tick.end.min(now + control.longest(now, edge.min(tick.end))),
+            Some(control) => now + control.longest(now, edge),
             None if part + 1 >= self.parts => tick.end,
             None => tick.begin + (tick.end - tick.begin) * (f64::from(part + 1) / f64::from(self.parts)),
         };
@@ -393,6 +420,7 @@ impl EventStepper {
     fn show(&mut self, tick: &mut Tick, mut made: Made) {
         let end = tick.end;
         let mut flow = WorldFlow::new(tick);
+        self.make_dense(&mut flow, &mut made);
         let mut change = vec![0.0; flow.dimension()];
         self.method.dense((end - made.from) / made.length, &mut change);
         let mut state = Vec::new();
@@ -440,32 +468,6 @@ impl EventStepper {
         let most = self.control.as_ref().map_or(MOST_STEPS, Control::most_steps);
         STEPS_BETWEEN_LOOKS as f64 * (end - now) > most * way
     }
-}
-
-/// The longest sensible step in s in a scene of many bodies that may collide.
-fn longest_among_many(flow: &WorldFlow) -> f64 {
-    let bodies = &flow.tick.state().bodies;
-    if bodies.atom_count() <= MANY_ATOMS || flow.tick.bounds().is_none() {
-        return f64::INFINITY;
-    }
-    let (reach, way) = (flow.reach(), MOST_RADII * bodies.smallest_radius);
-    // The smaller root of `v t + a t^2/2 = way`, written so that nothing cancels.
-    2.0 * way / (reach.speed + (reach.speed * reach.speed + 2.0 * reach.acceleration * way).sqrt())
-}
-
-/// The effect of the rounding of times on each number of the state in a step of `length` seconds. The force of a short
-/// pulse differs between two neighbouring times.
-fn rounding_of_time(flow: &mut WorldFlow, start: Start, length: f64) -> Vec<f64> {
-    let until = start.time + length;
-    let (mut rounding, mut before) = (vec![0.0; flow.dimension()], vec![0.0; flow.dimension()]);
-    flow.rates(until, start.state, &mut rounding);
-    flow.rates(until - 4.0 * f64::EPSILON * until.abs(), start.state, &mut before);
-    rounding.iter_mut().zip(&before).for_each(|(rate, before)| *rate = length * (*rate - before).abs());
-    let coordinates = flow.coordinates();
-    for index in 0..coordinates {
-        rounding[index] += length * rounding[coordinates + index];
-    }
-    rounding
 }
 
 /// `state + (change + rest)`.
@@ -547,7 +549,7 @@ impl Integrator for EventStepper {
         }
         let mut under_way = self.resume(tick);
         while now < end && !self.overload.follows() {
-            let made = match under_way.take() {
+            let mut made = match under_way.take() {
                 Some(made) => made,
                 None => {
                     if self.located && self.overload.comes(tick, events) {
@@ -565,13 +567,12 @@ impl Integrator for EventStepper {
                     // A step cut short counts, whatever it was for: so a tick comes to its end.
                     events += u32::from(made.cut);
                     part += u32::from(made.until == until && !at_edge);
-                    if made.until > end && !made.dense {
-                        let start = Start { time: made.from, state: &self.state, rates: &self.work.rates };
-                        self.method.make_dense(&mut flow, start, made.length);
-                    }
                     made
                 }
             };
+            if tick.looks_inside() {
+                self.look_inside(tick, &mut made, now);
+            }
             now = made.until.min(end);
             let step = made.until - made.from;
             if self.leads_nowhere(now, end) {

@@ -11,26 +11,69 @@
 //! parabola `chord - c t (T - t)/2` through both moments (the error of linear interpolation). If it is below zero at
 //! the later moment, it may have passed zero three times. It passed only once if the chord falls faster than such a
 //! parabola turns.
+//!
+//! If no bound `c` is known, it is fitted. With rates, the cubic through both moments gives it (Hermite), less an
+//! estimate of the error of that cubic. Without rates, the values at the stages of the step give it by second
+//! differences. Stages are less exact than the step, so they only suggest moments at which the step is evaluated.
 
-use super::locate::{IndicatorSample, vanished};
-use crate::tick::Indicator;
+use super::locate::{IndicatorSample, cubic, vanished};
+use crate::tick::{Bend, Indicator};
 
 /// Looks into one step.
 const MOST_LOOKS: usize = 24;
 
+/// A fitted bound below zero by less than this share of the values at both ends is no event. Otherwise a value that
+/// begins at zero would be looked at again and again.
+const SIGNIFICANT: f64 = 1e-3;
+
+/// The estimated error of a fitted cubic counts this many times.
+const WARY: f64 = 4.0;
+
+/// A rate that may turn by less than this share more than it did lets an indicator return by little.
+const SPARE: f64 = 0.1;
+
+/// Points at which a fitted cubic is examined.
+const PARTS: usize = 16;
+
+/// Stages nearer to each other than this share of a step tell one value.
+const APART: f64 = 1.0 / 12.0;
+
+/// Second differences of stages count this many times, because they are not exact.
+const STAGES: f64 = 1.5;
+
+/// The values of all indicators at a stage of a step.
+#[derive(Clone, Debug, PartialEq)]
+pub(super) struct StageValues {
+    /// Share of the step, 0 to 1.
+    pub share: f64,
+    /// A value for each indicator.
+    pub values: Vec<f64>,
+}
+
 /// Moments of a step, from its beginning on.
 pub(super) struct Inside {
     samples: Vec<IndicatorSample>,
+    /// Stages in ascending order, if some rates are unknown.
+    stages: Vec<StageValues>,
     /// Length of the step in seconds.
     length: f64,
     looks: usize,
 }
 
 impl Inside {
-    /// A step of `length` seconds, seen at its beginning and end.
-    pub fn of(begin: &[Indicator], end: &[Indicator], length: f64) -> Self {
+    /// A step of `length` seconds, seen at its beginning and end, and at its stages in any order.
+    pub fn of(begin: &[Indicator], end: &[Indicator], mut stages: Vec<StageValues>, length: f64) -> Self {
         let sample = |share: f64, indicators: &[Indicator]| IndicatorSample { share, indicators: indicators.to_vec() };
-        Self { samples: vec![sample(0.0, begin), sample(1.0, end)], length, looks: 0 }
+        // Lists of candidate pairs that were renewed within the step have other indicators.
+        stages.retain(|stage| stage.values.len() == begin.len());
+        stages.sort_by(|a, b| a.share.total_cmp(&b.share));
+        let mut last = 0.0;
+        stages.retain(|stage| {
+            let tells = stage.share - last >= APART && stage.share < 1.0;
+            last = if tells { stage.share } else { last };
+            tells
+        });
+        Self { samples: vec![sample(0.0, begin), sample(1.0, end)], stages, length, looks: 0 }
     }
 
     /// The share of the step that is to be looked at next.
@@ -45,7 +88,35 @@ impl Inside {
     /// The first pair of moments between which something may happen, and where.
     fn suspected(&self) -> Option<(usize, f64)> {
         let pairs = self.samples.windows(2).enumerate();
-        pairs.filter_map(|(index, pair)| Some((index, suspect(&pair[0], &pair[1], self.length)?))).next()
+        let of = |pair: &[IndicatorSample]| {
+            let bounded = suspect(&pair[0], &pair[1], self.length);
+            bounded.into_iter().chain(self.suspect_by_stages(&pair[0], &pair[1])).reduce(f64::min)
+        };
+        pairs.filter_map(|(index, pair)| Some((index, of(pair)?))).next()
+    }
+
+    /// The share between two moments at which the stages suggest that an indicator of unknown rate is below zero.
+    fn suspect_by_stages(&self, from: &IndicatorSample, to: &IndicatorSample) -> Option<f64> {
+        let first = self.stages.partition_point(|stage| stage.share <= from.share);
+        let last = self.stages.partition_point(|stage| stage.share < to.share);
+        let between = &self.stages[first..last.max(first)];
+        if between.is_empty() {
+            return None;
+        }
+        let of = |index: usize| {
+            let (a, b) = (&from.indicators[index], &to.indicators[index]);
+            if !a.is_sampled() || a.value <= 0.0 {
+                return None;
+            }
+            let mut course = vec![(from.share, a.value)];
+            course.extend(between.iter().map(|stage| (stage.share, stage.values[index])));
+            course.push((to.share, b.value));
+            dip(&course)
+        };
+        (0..from.indicators.len())
+            .filter_map(of)
+            .filter(|share| *share > from.share && *share < to.share)
+            .reduce(f64::min)
     }
 
     /// Takes the indicators of a moment. If one of them is below zero, all later moments are discarded.
@@ -80,12 +151,19 @@ impl Inside {
 fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<f64> {
     let way = to.share - from.share;
     let meet = |(a, b): (&Indicator, &Indicator)| {
-        let bend = (a.bend.max(b.bend) + (a.bend - b.bend).abs()) * length * length;
         let known = !(a.slope.is_nan() || b.slope.is_nan());
-        if !known && a.value > 0.0 && b.value < 0.0 {
-            // If the rate may change its sign, there may be more than one passage.
-            let turns = a.value - b.value < 0.5 * bend * way * way;
-            return turns.then_some(from.share + 0.5 * way);
+        let bend = match (a.bend, b.bend) {
+            (Bend::AtMost(first), Bend::AtMost(second)) => {
+                (first.max(second) + (first - second).abs()) * length * length
+            }
+            // Steps resolve the swings of springs: their indicators lie above the tangents at both ends.
+            _ if known && (a.swings > 0.0 || b.swings > 0.0) => 0.0,
+            _ => return fitted(a, b, way * length).filter(|_| known).map(|at| from.share + at * way),
+        };
+        if a.value > 0.0 && (vanished(b) || !known && b.value < 0.0) {
+            let several =
+                if known { returns([a, b], bend, (way, length)) } else { a.value - b.value < 0.5 * bend * way * way };
+            return several.then_some(from.share + 0.5 * way);
         }
         if !(a.value >= 0.0 && b.value >= 0.0 && a.value + b.value > 0.0) {
             return None;
@@ -98,6 +176,13 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
         inside.then_some(from.share + after).filter(|share| *share > from.share && *share < to.share)
     };
     from.indicators.iter().zip(&to.indicators).filter_map(meet).reduce(f64::min)
+}
+
+/// Whether an indicator that ends below zero may have passed zero there and back before. Its rate has to turn for that, by
+/// at least the rates at both ends together. Steps resolve the swings of springs, so these do not return.
+fn returns([a, b]: [&Indicator; 2], bend: f64, (way, length): (f64, f64)) -> bool {
+    let turned = (a.slope.abs() + b.slope.abs()) * length;
+    a.swings == 0.0 && b.swings == 0.0 && turned < (1.0 - SPARE) * bend * way
 }
 
 /// The meeting point of the two parabolas that begin at both ends of a piece. It is given as a share of the step after
@@ -115,6 +200,63 @@ fn below_chord([a, b]: [f64; 2], bend: f64, way: f64) -> (f64, f64) {
     (after, a + (rise - 0.5 * bend * (way - after)) * after)
 }
 
+/// The share of a piece of `length` seconds at which a fitted cubic, less its error, is below zero. If the piece ends
+/// below zero, only a cubic that comes back counts.
+///
+/// The fourth derivative bounds the error, `t^2 (T - t)^2/24` times it. In a swing the ratio of two successive
+/// derivatives is the angular frequency. So the third and the second derivative give the fourth.
+fn fitted(a: &Indicator, b: &Indicator, length: f64) -> Option<f64> {
+    let (first, second, way) = (a.slope * length, b.slope * length, b.value - a.value);
+    let bends = [6.0 * way - 4.0 * first - 2.0 * second, -6.0 * way + 2.0 * first + 4.0 * second];
+    let bend = bends[0].abs().max(bends[1].abs());
+    // A cubic is below its chord by at most an eighth of its greatest second derivative. Its error is at most a sixth.
+    let far = a.value < 0.0 || a.value.min(b.value) > bend / 3.0;
+    if far || bend == 0.0 || !bend.is_finite() {
+        return None;
+    }
+    let error = WARY * (bends[1] - bends[0]).powi(2) / bend / 24.0;
+    let rounding = a.rounding.max(b.rounding);
+    let height = |share: f64| cubic(a, b, length, share) + rounding;
+    let mut shares = (1..PARTS).map(|part| part as f64 / PARTS as f64);
+    if vanished(b) {
+        if a.value == 0.0 {
+            return None;
+        }
+        let passed = shares.find(|share| height(*share) < 0.0)?;
+        return shares.any(|share| height(share) > rounding).then_some(passed);
+    }
+    let least = |share: f64| height(share) - error * (share * (1.0 - share)).powi(2);
+    let lowest = shares.min_by(|a, b| least(*a).total_cmp(&least(*b)))?;
+    (least(lowest) < -SIGNIFICANT * a.value.max(b.value)).then_some(lowest)
+}
+
+/// The first share at which a course through these shares and values is, or bends, below zero. A course that stays below zero
+/// up to its end has passed zero once.
+fn dip(course: &[(f64, f64)]) -> Option<f64> {
+    let below = |(_, value): &&(f64, f64)| *value < 0.0;
+    let (inner, end) = (&course[1..course.len() - 1], course[course.len() - 1]);
+    if let Some(first) = inner.iter().position(|point| point.1 < 0.0) {
+        let comes_back = end.1 >= 0.0 || !inner[first..].iter().all(|point| below(&point));
+        return comes_back.then_some(inner[first].0);
+    }
+    let bend = |from: usize| {
+        let [(a, first), (b, middle), (c, last)] = [course[from], course[from + 1], course[from + 2]];
+        2.0 * ((last - middle) / (c - b) - (middle - first) / (b - a)) / (c - a)
+    };
+    let lowest = |index: usize| {
+        let [(from, a), (to, b)] = [course[index], course[index + 1]];
+        if b < 0.0 {
+            return None;
+        }
+        let near = index.saturating_sub(1)..=index.min(course.len() - 3);
+        let most = STAGES * near.map(bend).fold(0.0, f64::max);
+        let (after, least) = below_chord([a, b], most, to - from);
+        let inside = most > 0.0 && after > 0.0 && after < to - from && least < -SIGNIFICANT * a.max(b);
+        inside.then_some(from + after)
+    };
+    (0..course.len() - 1).find_map(lowest)
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -127,7 +269,7 @@ mod tests {
         length: f64,
         indicators: impl Fn(f64) -> Vec<Indicator>,
     ) -> (IndicatorSample, IndicatorSample, usize) {
-        let mut inside = Inside::of(&indicators(0.0), &indicators(length), length);
+        let mut inside = Inside::of(&indicators(0.0), &indicators(length), Vec::new(), length);
         let mut looks = 0;
         while let Some(share) = inside.next() {
             looks += 1;
@@ -141,19 +283,15 @@ mod tests {
     fn gap(t: f64, r: f64, d: f64) -> Indicator {
         let (x, speed) = (10.0 * (t - 0.3), 10.0);
         let distance = x.hypot(d);
-        Indicator { value: distance - 2.0 * r, slope: x * speed / distance, ..Indicator::default() }
+        Indicator::new(distance - 2.0 * r, x * speed / distance, Bend::AtMost(0.0))
     }
 
     /// The gap between a disc on a circle of radius 1 and a peg at 2 rad on the circle. The disc circles once in 6.3 seconds. The
     /// disc starts at the angle `begin`. The gap bends downwards everywhere except at the peg.
     fn gap_on_a_circle(t: f64, begin: f64) -> Indicator {
         let half = 0.5 * (t + begin - 2.0);
-        Indicator {
-            value: 2.0 * libm::sin(half).abs() - 0.02,
-            slope: libm::cos(half) * half.signum(),
-            bend: 1.0,
-            ..Indicator::default()
-        }
+        let value = 2.0 * libm::sin(half).abs() - 0.02;
+        Indicator::new(value, libm::cos(half) * half.signum(), Bend::AtMost(1.0))
     }
 
     #[test]
@@ -168,12 +306,7 @@ mod tests {
     /// A parabola over the ground is its own bound.
     #[test]
     fn a_throw_that_does_not_come_down_is_not_looked_at() {
-        let height = |t: f64| Indicator {
-            value: 0.1 + 3.0 * t - 2.0 * t * t,
-            slope: 3.0 - 4.0 * t,
-            bend: 4.0,
-            ..Indicator::default()
-        };
+        let height = |t: f64| Indicator::new(0.1 + 3.0 * t - 2.0 * t * t, 3.0 - 4.0 * t, Bend::AtMost(4.0));
         let (_, high, looks) = look(|t| vec![height(t)]);
         assert!(high.share == 1.0 && looks == 0, "{looks}");
     }
@@ -181,7 +314,7 @@ mod tests {
     /// A way along a surface, so near that two dozen evaluations cannot distinguish it from touching.
     #[test]
     fn a_step_ends_where_it_stays_open_whether_bodies_meet() {
-        let (_, high, looks) = look(|_| vec![Indicator { value: 1e-6, slope: 0.0, bend: 1.0, ..Indicator::default() }]);
+        let (_, high, looks) = look(|_| vec![Indicator::new(1e-6, 0.0, Bend::AtMost(1.0))]);
         assert!(high.share > 0.0 && high.share < 1.0 && looks == MOST_LOOKS, "{high:?} {looks}");
     }
 
@@ -190,11 +323,9 @@ mod tests {
     fn a_peak_of_unknown_rate_is_seen() {
         for (begin, length) in [(0.0, 3.0), (0.4, 2.5), (1.5, 6.0)] {
             let omega = std::f64::consts::FRAC_PI_2;
-            let room = |t: f64| Indicator {
-                value: 1.0 - 1.0001 * libm::sin(omega * (begin + t)),
-                slope: f64::NAN,
-                bend: 2.0 * omega * omega,
-                ..Indicator::default()
+            let room = |t: f64| {
+                let value = 1.0 - 1.0001 * libm::sin(omega * (begin + t));
+                Indicator::of_value(value, Bend::AtMost(2.0 * omega * omega))
             };
             let (_, high, looks) = look_within(length, |t| vec![room(t)]);
             let time = begin + length * high.share;
@@ -206,8 +337,7 @@ mod tests {
     /// last one.
     #[test]
     fn the_first_of_several_passages_of_unknown_rate_counts() {
-        let room =
-            |t: f64| Indicator { value: 1.0 - 1.5 * libm::sin(t), slope: f64::NAN, bend: 2.0, ..Indicator::default() };
+        let room = |t: f64| Indicator::of_value(1.0 - 1.5 * libm::sin(t), Bend::AtMost(2.0));
         let length = 2.5 * std::f64::consts::PI;
         let (low, high, _) = look_within(length, |t| vec![room(t)]);
         let first = libm::asin(1.0 / 1.5);
@@ -234,7 +364,42 @@ mod tests {
 
     #[test]
     fn what_only_rises_or_falls_is_not_looked_at() {
-        let (_, _, looks) = look(|t| vec![Indicator { value: 1.0 - 0.5 * t, slope: -0.5, ..Indicator::default() }]);
+        let (_, _, looks) = look(|t| vec![Indicator::new(1.0 - 0.5 * t, -0.5, Bend::AtMost(0.0))]);
         assert_eq!(looks, 0);
+    }
+
+    /// A corner of a turning box passes below the floor early in a step, and again at its end. The first passage counts.
+    #[test]
+    fn a_step_that_ends_below_zero_may_have_passed_before() {
+        let height = |t: f64| {
+            let value = 1.0 + 0.9 * libm::cos(12.0 * t + 1.0) - 5.0 * t * t - 0.6;
+            let slope = -0.9 * 12.0 * libm::sin(12.0 * t + 1.0) - 10.0 * t;
+            Indicator::new(value, slope, Bend::AtMost(0.9 * 144.0 + 10.0))
+        };
+        let (low, high, looks) = look_within(0.5, |t| vec![height(t)]);
+        // The first root of the height.
+        let (mut before, mut after) = (0.0, 0.2);
+        while after - before > 1e-12 {
+            let middle = 0.5 * (before + after);
+            if height(middle).value > 0.0 { before = middle } else { after = middle }
+        }
+        let first = before / 0.5;
+        assert!(low.share <= first && high.share >= first && high.share < 0.5, "{} {} {looks}", low.share, high.share);
+    }
+
+    /// A force of unknown rate that dips below zero between two stages of a step.
+    #[test]
+    fn stages_tell_of_a_dip_of_unknown_rate() {
+        let force = |t: f64| 1.0 + 1.2 * libm::cos(t);
+        let room = |t: f64| Indicator::of_value(force(t), Bend::Fitted);
+        let (from, length) = (1.6, 3.0);
+        let shares = [0.12, 0.25, 0.33, 0.6, 0.65, 0.86];
+        let stages = shares.map(|share| StageValues { share, values: vec![force(from + share * length)] });
+        let mut inside = Inside::of(&[room(from)], &[room(from + length)], stages.to_vec(), length);
+        while let Some(share) = inside.next() {
+            inside.see(IndicatorSample { share, indicators: vec![room(from + share * length)] });
+        }
+        let (low, high) = inside.last_two();
+        assert!(low.indicators[0].value > 0.0 && high.indicators[0].value < 0.0, "{low:?} {high:?}");
     }
 }

@@ -153,7 +153,7 @@ pub fn vanished(indicator: &Indicator) -> bool {
 }
 
 /// Value of the cubic through both ends at `share`.
-fn cubic(begin: &Indicator, end: &Indicator, length: f64, share: f64) -> f64 {
+pub(super) fn cubic(begin: &Indicator, end: &Indicator, length: f64, share: f64) -> f64 {
     let rest = 1.0 - share;
     let (first, second) = (begin.slope * length, end.slope * length);
     let way = end.value - begin.value;
@@ -190,6 +190,7 @@ fn chord(low: &Indicator, high: &Indicator, replaced: i32) -> f64 {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tick::Bend;
 
     fn find(indicators: impl Fn(f64) -> Vec<Indicator>, length: f64) -> Option<(f64, Vec<usize>, u32)> {
         let ends = [0.0, 1.0].map(|share| IndicatorSample { share, indicators: indicators(share * length) });
@@ -204,11 +205,11 @@ mod tests {
     }
 
     fn known(value: f64, slope: f64) -> Indicator {
-        Indicator { value, slope, ..Indicator::default() }
+        Indicator::new(value, slope, Bend::Fitted)
     }
 
     fn unknown(value: f64) -> Indicator {
-        Indicator { value, slope: f64::NAN, ..Indicator::default() }
+        Indicator::of_value(value, Bend::Fitted)
     }
 
     #[test]

@@ -12,6 +12,7 @@ mod event_stepper;
 mod interior_events;
 mod locate;
 mod semi_implicit_euler;
+mod step_bounds;
 pub mod steps;
 mod velocity_verlet;
 
@@ -20,7 +21,7 @@ use bevy_ecs::prelude::*;
 
 pub use chosen::ChosenMethod;
 pub use clock_section::{ClockSection, EventTiming};
-pub use control::{Allowance, MOST_STEPS};
+pub use control::{Allowance, ORDER};
 pub use event_stepper::{Detail, EventStepper, StepPace};
 pub use semi_implicit_euler::SemiImplicitEuler;
 pub use velocity_verlet::VelocityVerlet;

@@ -5,10 +5,13 @@ use serde::{Deserialize, Serialize};
 
 use super::ends::{Along, EndPair};
 use crate::constraints::{Row, RowKind, Share};
-use crate::tick::{Indicator, State};
+use crate::tick::{Bend, Indicator, State};
 
 /// A rate counts as held if its deviation is below this share of the spins and speeds behind it.
 const SAME: f64 = 1e-9;
+/// A rate that others hold accelerates by less than this share of what its own torque does. Forces of dependent rows leave
+/// 1e-10.
+const TURNS: f64 = 1e-6;
 /// A share of torques and rates that is rounding.
 const ROUNDING: f64 = 1e-14;
 
@@ -36,7 +39,7 @@ pub struct Bounded {
     mode: Mode,
     /// The torque of the last evaluation in which it held.
     torque: f64,
-    /// By how much the rate has differed at most from the one to be held.
+    /// By how much the rate of accepted states has differed at most from the one to be held.
     farthest: f64,
     /// Whether it gives its bound and the rate stays all the same, because others hold it.
     stands: bool,
@@ -103,10 +106,15 @@ impl Bounded {
         self.limit * if self.tries { 1.0 - SAME } else { 1.0 + SAME }
     }
 
+    /// The present state is an accepted one. Trial states may have rates beyond all bounds.
+    pub fn accept(&mut self, pair: &EndPair, along: &Along) {
+        self.farthest = self.farthest.max((self.speed - pair.rate(along)).abs());
+    }
+
     /// Chooses the mode of a state. Says whether that is another one.
     pub fn choose(&mut self, pair: &EndPair, along: &Along) -> bool {
         let missing = self.missing(pair, along);
-        self.farthest = self.farthest.max((self.speed - pair.rate(along)).abs());
+        self.accept(pair, along);
         let mode = match self.mode {
             _ if !self.is_bounded() => Mode::Holds,
             // A blow may have turned the rate round: then the torque turns with it.
@@ -115,6 +123,24 @@ impl Bounded {
             mode => mode,
         };
         self.set(mode)
+    }
+
+    /// Corrects the mode after an evaluation. Says whether it did.
+    pub fn settle(&mut self, pair: &EndPair, along: &Along, state: &State) -> bool {
+        self.choose(pair, along) || self.turns_at_once(pair, along, state)
+    }
+
+    /// The greatest torque may drive the rate beyond the required one, which it has. Then it holds for a try. Events of
+    /// others may leave such a state, in which no indicator changes its sign.
+    fn turns_at_once(&mut self, pair: &EndPair, along: &Along, state: &State) -> bool {
+        let Mode::Gives(sign) = self.mode else { return false };
+        let row = pair.row(along, RowKind::Velocity);
+        let own = self.limit * row.response(&row, state.bodies());
+        let turns = self.missing(pair, along) == 0.0 && sign * row.acceleration(state.bodies()) > TURNS * own;
+        if turns {
+            self.hold();
+        }
+        turns
     }
 
     /// Chooses the mode after a jump of velocities. If the rate is the required one, it is held for a try, because its
@@ -165,18 +191,17 @@ impl Bounded {
         (self.stands, self.tries) = (false, false);
         let rounding = ROUNDING * self.limit;
         let missing = self.speed - pair.rate(along);
-        self.farthest = self.farthest.max(missing.abs());
         match self.mode {
             _ if !self.is_bounded() => {}
             Mode::Holds => {
-                let bend = pair.bend_of_row(&pair.row(along, RowKind::Velocity), 2.0 * self.limit, state);
-                told.extend([1.0, -1.0].map(|sign| Indicator {
-                    value: self.limit - sign * self.torque,
-                    slope: f64::NAN,
-                    bend,
-                    rounding,
-                    ..Indicator::default()
-                }));
+                let row = pair.row(along, RowKind::Velocity);
+                let bend = Bend::AtMost(pair.bend_of_row(&row, 2.0 * self.limit, state));
+                told.extend(
+                    [1.0, -1.0].map(|sign| Indicator {
+                        rounding,
+                        ..Indicator::of_value(self.limit - sign * self.torque, bend)
+                    }),
+                );
             }
             Mode::Gives(sign) => {
                 let row = pair.row(along, RowKind::Velocity);
@@ -184,10 +209,8 @@ impl Bounded {
                 let own = self.limit * row.response(&row, state.bodies());
                 self.stands = self.missing(pair, along) == 0.0 && acceleration.abs() <= SAME * own;
                 told.push(Indicator {
-                    value: sign * missing,
-                    slope: -sign * acceleration,
                     rounding: ROUNDING * self.farthest,
-                    ..Indicator::default()
+                    ..Indicator::new(sign * missing, -sign * acceleration, Bend::Fitted)
                 });
             }
         }

@@ -33,7 +33,8 @@ struct Distance {
     anchor_b: Option<LengthPair>,
     /// The distance in metres. Above zero. Default: that at the start.
     length: Option<Length>,
-    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. A blow at a limit or a taut rope counts as an even force over a
+    /// millisecond. Default: none.
     break_force: Option<Force>,
     /// The frequency in Hz and the damping ratio with which it swings as a spring. Default: none.
     softness: Option<Softness>,

@@ -15,7 +15,9 @@ use crate::constraints::{RowKind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneError};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::{Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
+use crate::tick::{
+    BlowAtJoint, Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt,
+};
 use crate::world::{Bodies, anchor};
 use jostle_language::numbers::number;
 
@@ -359,6 +361,15 @@ impl Model for Joint {
         }
     }
 
+    fn break_force(&self) -> Option<f64> {
+        self.parts.break_force()
+    }
+
+    fn take_blow(&mut self, blow: BlowAtJoint, breaks: bool) {
+        self.parts.take_blow(blow, breaks);
+        self.see_whether_broken();
+    }
+
     fn events(&mut self) -> Option<&mut dyn Events> {
         (!self.parts.is_empty()).then_some(self)
     }
@@ -367,9 +378,7 @@ impl Model for Joint {
     fn remarks(&self, state: &State) -> Vec<String> {
         let first = state.models_of::<Self>().next().is_some_and(|joint| std::ptr::eq(joint, self));
         let mut remarks: Vec<String> = Vec::new();
-        if let Some(time) = self.parts.broken {
-            remarks.push(format!("the joint `{}` broke at {} s", self.name, number(time)));
-        }
+        remarks.extend(self.parts.remark(&self.name));
         let dead = state.dead_points();
         if let (true, Some(time)) = (first, dead.first) {
             remarks.push(format!(

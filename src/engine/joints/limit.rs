@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 use super::ends::EndPair;
 use super::law::Freedom;
 use crate::constraints::{Row, RowKind};
-use crate::tick::{Indicator, State};
+use crate::tick::{Bend, Indicator, State};
 
 /// A share of its size within which a value is at the limit.
 const AT: f64 = 1e-14;
@@ -44,7 +44,7 @@ pub struct Limit {
     /// The limit whose indicator has vanished, and the one that was left since the last step.
     reached: Option<Side>,
     left: Option<Side>,
-    /// The force of the last evaluation, and the greatest since the joint is held.
+    /// The force of the last evaluation, and the greatest in accepted states since the joint is held.
     force: f64,
     greatest: f64,
     /// The fastest arrival so far, in rad/s or m/s.
@@ -141,6 +141,10 @@ impl Limit {
     /// Takes the force of its row.
     pub fn note(&mut self, force: f64) {
         self.force = self.at.map_or(0.0, |side| side.sign() * force);
+    }
+
+    /// The last evaluation was that of an accepted state. Trial states may have forces beyond all bounds.
+    pub fn accept(&mut self) {
         self.greatest = self.greatest.max(self.force.abs());
     }
 
@@ -155,7 +159,7 @@ impl Limit {
         let reached = self.reached.take();
         let left = self.left.take();
         let rate = pair.rate(&freedom.along);
-        let still = rate.abs() <= PULL * pair.speeds(&freedom.along).max(self.fastest);
+        let still = rate.abs() <= self.rounding(pair, freedom);
         let arrives = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
             let there = reached == Some(*side) || room <= AT * size;
@@ -179,9 +183,14 @@ impl Limit {
     /// After a jump of velocities: leaves a limit from which the joint departs.
     pub fn after_blow(&mut self, pair: &EndPair, freedom: &Freedom) {
         let away = self.at.map_or(0.0, |side| side.sign() * pair.rate(&freedom.along));
-        if away > PULL * pair.speeds(&freedom.along) {
+        if away > self.rounding(pair, freedom) {
             self.leave();
         }
+    }
+
+    /// A rate in rad/s or m/s that is rounding. Behind a blow that stops the bodies, their speeds are rounding themselves.
+    fn rounding(&self, pair: &EndPair, freedom: &Freedom) -> f64 {
+        PULL * pair.speeds(&freedom.along).max(self.fastest)
     }
 
     /// Between ticks: leaves a limit that would have to pull. Says whether it did.
@@ -202,14 +211,14 @@ impl Limit {
         if self.at.is_some() {
             let rounding = PULL * self.greatest;
             let row = pair.row(&freedom.along, RowKind::Position);
-            let bend = pair.bend_of_row(&row, 2.0 * self.greatest, state);
-            return told.push(Indicator { value: self.force, slope: f64::NAN, bend, rounding, swings: 0.0 });
+            let bend = Bend::AtMost(pair.bend_of_row(&row, 2.0 * self.greatest, state));
+            return told.push(Indicator { rounding, ..Indicator::of_value(self.force, bend) });
         }
         let bend = pair.row(&freedom.along, RowKind::Position).acceleration(state.bodies()).abs();
         let rate = pair.rate(&freedom.along);
         told.extend(self.sides().map(|side| {
             let (value, size) = self.room(side, pair, freedom);
-            Indicator { value, slope: side.sign() * rate, bend, rounding: AT * size, swings: 0.0 }
+            Indicator { rounding: AT * size, ..Indicator::new(value, side.sign() * rate, Bend::AtMost(bend)) }
         }));
     }
 
@@ -237,7 +246,7 @@ impl Limit {
         // A limit that was left in this tick pushes away only by rounding.
         let rests = |side: &Side| {
             let (room, size) = self.room(*side, pair, freedom);
-            let still = rate.abs() <= PULL * pair.speeds(&freedom.along);
+            let still = rate.abs() <= self.rounding(pair, freedom);
             self.left != Some(*side) && room.abs() <= AT * size && still && side.sign() * acceleration < 0.0
         };
         // Friction that holds the joint, or another one, leaves rounding of the forces of all rows.

@@ -9,7 +9,11 @@ use super::limit::{Arrival, Limit, Press};
 use crate::constraints::{RowKind, Rows};
 use crate::scene::Diagnostics;
 use crate::scene::units::{Dimension, Quantity, Scalar};
-use crate::tick::{Blow, EvaluationMode, Indicator, State};
+use crate::tick::{Bend, Blow, BlowAtJoint, EvaluationMode, Indicator, State};
+use jostle_language::numbers::number;
+
+/// The share of the break force from which on the card tells of a blow.
+const TOLD: f64 = 0.01;
 
 /// The request of the scene, in SI units.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -60,6 +64,8 @@ pub struct JointParts {
     break_force: Option<f64>,
     /// When it broke, in seconds.
     pub broken: Option<f64>,
+    /// The greatest blow so far, if it has a break force; if a blow broke it, this one.
+    blow: Option<BlowAtJoint>,
     /// The number of rows, of the limit and of friction.
     rows: [usize; 2],
 }
@@ -154,6 +160,8 @@ impl JointParts {
             return true;
         }
         let Some(freedom) = law.freedom(pair) else { return false };
+        self.limit.iter_mut().for_each(Limit::accept);
+        self.acting().into_iter().for_each(|friction| friction.accept(pair, &freedom.along));
         let mut changed = false;
         if let Some(limit) = &mut self.limit {
             let lets_go = !located && limit.follow();
@@ -191,6 +199,43 @@ impl JointParts {
         }
     }
 
+    /// The force in N at which it breaks, if it has not broken yet.
+    pub fn break_force(&self) -> Option<f64> {
+        self.break_force.filter(|_| self.broken.is_none())
+    }
+
+    /// Takes a blow, and breaks by it or not.
+    pub fn take_blow(&mut self, blow: BlowAtJoint, breaks: bool) {
+        if breaks {
+            self.broken = Some(blow.time);
+        }
+        if breaks || self.blow.is_none_or(|greatest| blow.force() > greatest.force()) {
+            self.blow = Some(blow);
+        }
+    }
+
+    /// A sentence on whether it has broken, and on its greatest blow.
+    pub fn remark(&self, name: &str) -> Option<String> {
+        let counts = |blow: &BlowAtJoint| {
+            let [impulse, force, time] = [blow.impulse, blow.force(), blow.lasts].map(number);
+            format!(
+                "{impulse} N s. It counts as {force} N, because a blow at a rigid joint counts as if it took {time} s"
+            )
+        };
+        match (self.broken, &self.blow) {
+            (Some(broken), Some(blow)) if blow.time == broken => {
+                Some(format!("the joint `{name}` broke at {} s by a blow of {}", number(broken), counts(blow)))
+            }
+            (Some(broken), _) => Some(format!("the joint `{name}` broke at {} s", number(broken))),
+            (None, Some(blow)) if blow.force() > TOLD * self.break_force.unwrap_or(f64::INFINITY) => Some(format!(
+                "the joint `{name}` bore a blow at {} s. The blow was {}",
+                number(blow.time),
+                counts(blow)
+            )),
+            _ => None,
+        }
+    }
+
     fn breaks(&mut self, force: f64, now: f64) -> bool {
         let breaks = self.broken.is_none() && self.break_force.is_some_and(|most| force > most);
         if breaks {
@@ -202,9 +247,8 @@ impl JointParts {
     /// Adds the indicators of all modes, if the joint bears this force in N.
     pub fn tell(&mut self, law: &dyn JointLaw, pair: &EndPair, force: f64, state: &State, told: &mut Vec<Indicator>) {
         if let Some(most) = self.break_force {
-            let bend = pair.bend(2.0 * most, state);
-            let rounding = 1e-13 * most;
-            told.push(Indicator { value: most - force, slope: f64::NAN, bend, rounding, ..Default::default() });
+            let bend = Bend::AtMost(pair.bend(2.0 * most, state));
+            told.push(Indicator { rounding: 1e-13 * most, ..Indicator::of_value(most - force, bend) });
         }
         let Some(freedom) = law.freedom(pair) else { return };
         if let Some(limit) = &self.limit {
@@ -246,6 +290,6 @@ impl JointParts {
             self.friction.iter_mut().for_each(Bounded::hold);
             return true;
         }
-        self.acting().is_some_and(|friction| friction.choose(pair, &freedom.along))
+        self.acting().is_some_and(|friction| friction.settle(pair, &freedom.along, state))
     }
 }

@@ -44,7 +44,8 @@ struct Prismatic {
     restitution: Scalar,
     /// The greatest friction, in N: below it the joint sticks. Not negative. 0 is no friction. Default: none.
     friction: Option<Force>,
-    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. A blow at a limit or a taut rope counts as an even force over a
+    /// millisecond. Default: none.
     break_force: Option<Force>,
     /// The frequency in Hz and the damping ratio with which it swings as a spring. Default: none.
     softness: Option<Softness>,

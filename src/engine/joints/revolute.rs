@@ -40,7 +40,8 @@ struct Revolute {
     restitution: Scalar,
     /// The greatest friction, in N m: below it the joint sticks. Not negative. 0 is no friction. Default: none.
     friction: Option<Torque>,
-    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. A blow at a limit or a taut rope counts as an even force over a
+    /// millisecond. Default: none.
     break_force: Option<Force>,
     /// The frequency in Hz and the damping ratio with which it swings as a spring. The frequency is that of the mean of
     /// both directions. Default: none.

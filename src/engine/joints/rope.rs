@@ -37,7 +37,8 @@ struct Rope {
     /// The share of the speed with which its ends come back when it becomes taut, 0 to 1. With 0 it stays taut. Default: 0.
     #[serde(default)]
     restitution: Scalar,
-    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. A blow at a limit or a taut rope counts as an even force over a
+    /// millisecond. Default: none.
     break_force: Option<Force>,
     /// Whether both bodies touch each other. Default: false.
     #[serde(default)]

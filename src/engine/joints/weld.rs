@@ -33,7 +33,8 @@ struct Weld {
     /// The anchor on `b`, likewise. If both anchors are absent, it is the centre of mass of `b`. Default: the place of the
     /// other anchor at the start.
     anchor_b: Option<LengthPair>,
-    /// The force in N at which it breaks forever. Above zero. Blows at limits do not count. Default: none.
+    /// The force in N at which it breaks forever. Above zero. A blow at a limit or a taut rope counts as an even force over a
+    /// millisecond. Default: none.
     break_force: Option<Force>,
     /// The frequency in Hz and the damping ratio with which it swings as a spring. The frequency is that of the mean of
     /// both directions. Default: none.

@@ -13,7 +13,7 @@ use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
-use crate::tick::add_packed_observer;
+use crate::tick::add_observer;
 use crate::tick::kept::SnapshotAppExt;
 
 const QUANTITIES: &[&str] = &["contacts", "contacts.begun"];
@@ -84,7 +84,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     }
     if !world.contains_resource::<Begun>() {
         world.init_resource::<Begun>();
-        add_packed_observer(world, count_begun.after(FindContactEvents));
+        add_observer(world, count_begun.after(FindContactEvents));
     }
     let mut begun = world.resource_mut::<Begun>();
     let known = begun.0.iter().position(|(counted, _)| *counted == entity);

@@ -4,12 +4,11 @@
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
-use super::gate::{self, Gate};
+use super::gate::{self, Gate, LastLook};
 use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
@@ -17,13 +16,13 @@ use crate::scene::units::LengthPair;
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{add_looker, add_packed_observer};
+use crate::tick::{add_inner_looker, add_observer};
 
 const QUANTITIES: &[&str] = &["count", "count.net"];
 
 /// The number of touches that bodies began since the start, or of their passages through a gate: `hits.count`. For a gate
 /// `grains.count.net` is the number of passages to the left, less those to the right. Contacts count as in `Contacts`.
-/// Passages count from tick to tick. `Period` counts the crossings of a value by a channel.
+/// Passages count on the smooth way from tick to tick, or from look to look within a step. `Period` counts the crossings of a value by a channel.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Counter {
@@ -58,8 +57,8 @@ struct Counts(Vec<Count>);
 struct Count {
     count: u64,
     net: i64,
-    /// Of a gate: where each body was at the last tick, in m.
-    before: Vec<Option<DVec2>>,
+    /// Of a gate: its bodies at the last look.
+    before: LastLook,
 }
 
 impl Entry for Counter {
@@ -129,9 +128,9 @@ fn look(world: &mut World, looked: &Looked) {
     match looked {
         Looked::Contacts(..) => {
             watch(world);
-            add_packed_observer(world, count_contacts.after(FindContactEvents));
+            add_observer(world, count_contacts.after(FindContactEvents));
         }
-        Looked::Gate(..) => add_looker(world, count_passages),
+        Looked::Gate(..) => add_inner_looker(world, count_passages),
     }
 }
 

@@ -7,23 +7,23 @@ use std::collections::VecDeque;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
-use glam::DVec2;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
-use super::gate::{self, Gate};
+use super::gate::{self, Gate, LastLook};
 use super::{Channel, SensorAppExt, add_found, bodies_named, declare};
 use crate::scene::units::{LengthPair, Time};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{Clock, State, add_looker};
+use crate::tick::{Clock, State, add_inner_looker};
 
 const QUANTITIES: &[&str] = &["count", "mass", "count.rate", "mass.rate"];
 
 /// The number of bodies that have passed a gate since the start, `out.count`, and their mass in kg, `out.mass`. Their rates
 /// over a time window are `out.count.rate` in 1/s and `out.mass.rate` in kg/s. A body passes if its centre of mass crosses
-/// the line between the two ends, seen from tick to tick. Left is the left hand of a walk from the first end to the second.
+/// the line between the two ends. Its way is smooth from tick to tick, or from look to look within a step. Left is the left
+/// hand of a walk from the first end to the second.
 #[derive(Deserialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 struct Flow {
@@ -98,8 +98,8 @@ struct Passed {
     all: Amount,
     /// Tick and amount of those in the window, the oldest first.
     recent: VecDeque<(u64, Amount)>,
-    /// The place of each body at the last tick, in m.
-    before: Vec<Option<DVec2>>,
+    /// Its bodies at the last look.
+    before: LastLook,
 }
 
 /// A number of bodies and their mass in kg.
@@ -136,7 +136,7 @@ impl Entry for Flow {
             if !world.contains_resource::<Asked>() {
                 world.init_resource::<Asked>();
                 world.init_resource::<Seen>();
-                add_looker(world, look);
+                add_inner_looker(world, look);
             }
             let gate = Gate::new(gate, bodies_named(world, &of, outline));
             world.resource_mut::<Seen>().0.push(Passed::default());
@@ -158,7 +158,7 @@ fn look(world: &mut World) {
             });
             let now = amounts.fold(Amount::default(), Amount::plus);
             passed.all = passed.all.plus(now);
-            let tick = state.clock().ticks;
+            let tick = state.clock().ticks_begun();
             if now.count != 0 || now.mass != 0.0 {
                 passed.recent.push_back((tick, now));
             }
@@ -173,7 +173,7 @@ fn look(world: &mut World) {
 impl Passed {
     /// The amount per second that passed in the window; NaN before the first tick.
     fn rate(&self, meter: &Meter, clock: &Clock, of: impl Fn(&Amount) -> f64) -> f64 {
-        let ticks = meter.ticks(clock).min(clock.ticks);
+        let ticks = meter.ticks(clock).min(clock.ticks_begun());
         let recent = self.recent.iter().map(|(_, amount)| amount).fold(Amount::default(), |sum, more| sum.plus(*more));
         if ticks > 0 { of(&recent) / (ticks as f64 * clock.dt) } else { f64::NAN }
     }

@@ -114,7 +114,7 @@ fn see_components(world: &mut World, channel: &Channel) {
 /// A value that follows from the forces of the last evaluation. Before the first tick there is no evaluation, and the value is
 /// NaN.
 fn known(state: &State, value: f64) -> f64 {
-    if state.clock().ticks > 0 { value } else { f64::NAN }
+    if state.clock().ticks_begun() > 0 { value } else { f64::NAN }
 }
 
 /// Turns a channel's name into the channel, if it is one of its own.
@@ -352,7 +352,8 @@ pub fn plugin(app: &mut App) {
     app.describe_section(
         "sensors",
         "Quantities to measure. Each number is a channel, `name.quantity`, and a column of the CSV. Sensors read channels at \
-         ticks. Under a `tolerance` or `method: Reference` ticks are the frames of the film.",
+         ticks. Under a `tolerance` or `method: Reference` ticks are the frames of the film. `Period`, `Flow` and `Counter` then \
+         also look at moments within each step, so that they miss no swing.",
     );
     pose::plugin(app);
     velocity::plugin(app);

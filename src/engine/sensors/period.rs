@@ -1,8 +1,8 @@
 //! `Period(name: "swing", of: "hip.angle", crossing: 0)`: how often a channel crosses a value upwards, and how long that takes.
 //!
-//! A channel is known at ticks. A crossing is the root of the cubic polynomial through the four ticks about it. For an
-//! oscillation of angular frequency `w` the root is off by some `(w dt)^3 dt/40` (remainder of interpolation). The sensor knows a
-//! crossing one tick later.
+//! A channel is known at looks: at ticks, or within each step if steps follow from their errors. A crossing is the root of the cubic
+//! polynomial through the four looks about it. For an oscillation of angular frequency `w` and looks every `dt` the root errs by some
+//! `(w dt)^3 dt/40` (remainder of interpolation). The sensor knows a crossing one look later.
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -12,7 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{Channel, SensorAppExt, add_found, check_channel, declare, require};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
-use crate::tick::{State, add_looker};
+use crate::tick::{State, add_inner_looker};
 
 const QUANTITIES: &[&str] = &["period", "period.mean", "crossings", "crossings.last"];
 
@@ -42,7 +42,7 @@ struct Followed(Vec<(String, Channel, f64)>);
 /// The record of one meter.
 #[derive(Clone, Default, Serialize, Deserialize)]
 struct Meter {
-    /// The last ticks, at most four: times in s, and values above the one to be crossed.
+    /// The last looks, at most four: times in s, and values above the one to be crossed.
     samples: Vec<(f64, f64)>,
     crossings: u64,
     /// Times in s of the first crossing, of the one before the last, and of the last.
@@ -74,7 +74,7 @@ impl Entry for Period {
             if !world.contains_resource::<Meters>() {
                 world.init_resource::<Meters>();
                 world.init_resource::<Followed>();
-                add_looker(world, follow);
+                add_inner_looker(world, follow);
             }
             world.resource_mut::<Meters>().0.push(Meter::default());
             world.resource_mut::<Followed>().0.push((name.clone(), channel, crossing));
@@ -83,7 +83,7 @@ impl Entry for Period {
     }
 }
 
-/// At the end of a tick all meters look at their channels.
+/// All meters look at their channels.
 fn follow(world: &mut World) {
     let time = world.resource::<State>().clock().time();
     world.resource_scope(|world, mut meters: Mut<Meters>| {

@@ -8,7 +8,7 @@ use super::Overrides;
 use crate::integrate::ChosenMethod;
 use crate::integrate::ClockSection;
 use crate::integrate::clock_section::EventTiming;
-use crate::integrate::{Allowance, Description, Detail, MOST_STEPS, Methods, StepPace};
+use crate::integrate::{Allowance, Description, Detail, Methods, StepPace};
 use crate::joints::Joint;
 use crate::record::sections::FilmSection;
 use crate::scene::SceneError;
@@ -29,6 +29,11 @@ const DIGITS: [f64; 3] = [5.0, 2.0, 1.0];
 const DIGITS_IN_A_CROWD: [f64; 6] = [8.0, 5.0, 4.0, 2.5, 2.0, 1.0];
 /// The tick in seconds when nothing in the scene asks for a finer one.
 const COARSEST_TICK: f64 = 1e-3;
+/// With more ticks of that length, each tick is a frame. A film or a table shows no more.
+const MANY_TICKS: f64 = 1e5;
+/// The error that a step may make as a share of the motion, where the engine chooses method and steps. Some ten
+/// thousand swings then stay right to a millionth. Steps are a third shorter than with ten times that error.
+const CHOSEN_SHARE: f64 = 1e-10;
 /// More ticks than a user can wait for, and still counted exactly.
 const MOST_TICKS: f64 = 1e15;
 /// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
@@ -66,6 +71,17 @@ pub struct Plan {
     pub error: Option<ErrorEstimate>,
     /// The reason why it misses the goal.
     pub warning: Option<String>,
+}
+
+impl Plan {
+    /// The error that a step may make as a share of the motion, if steps follow their error. Ticks are then
+    /// only the moments at which the run is read.
+    pub fn allowed(&self) -> Option<f64> {
+        match self.pace {
+            StepPace::Allowed(allowance) => Some(allowance.share),
+            StepPace::Even(_) => None,
+        }
+    }
 }
 
 type Wrong = Box<SceneError>;
@@ -159,15 +175,15 @@ pub(super) fn steps_per_tick(world: &World, plan: &Plan) -> u32 {
 /// A plan with a tick.
 fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f64) -> Result<Plan, Wrong> {
     let mut notes = Vec::new();
-    let tick = match (overrides.tick, clock.tick) {
+    let given = overrides.tick.or(clock.tick.map(|tick| tick.si()));
+    let tick = match (overrides.tick, given) {
         (Some(tick), _) => {
             notes.push(format!("tick {tick:?} s from the command line"));
             positive("--tick", tick)?
         }
-        (None, Some(tick)) => tick.si(),
+        (None, Some(tick)) => tick,
         (None, None) => {
-            let (tick, why) = chosen_tick(world)?;
-            let tick = tick.min(duration);
+            let (tick, why) = tick_of_the_run(world, overrides, duration)?;
             notes.push(format!("tick {tick} s chosen: {why}"));
             tick
         }
@@ -177,13 +193,49 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         notes.push(format!("method {name} from the command line"));
         method.clone_from(name);
     }
+    let mut pace = StepPace::Even(1);
     if method == ClockSection::AUTO {
-        let (name, why) = chosen_method(world);
+        let free = given.is_none() && clock.events != EventTiming::PerTick && is_smooth(world);
+        let (name, why) = if free { OF_SMOOTH_MOTION } else { chosen_method(world) };
         notes.push(format!("method {name} chosen: {why}"));
         method = name.to_owned();
+        if free {
+            pace = StepPace::Allowed(Allowance::new(CHOSEN_SHARE, duration));
+        }
     }
-    let (pace, detail, events) = (StepPace::Even(1), Detail::default(), clock.events);
+    let (detail, events) = (Detail::default(), clock.events);
     Ok(Plan { method, tick, pace, detail, events, notes, error: None, warning: None })
+}
+
+/// The tick of a run without a request, and the reason.
+fn tick_of_the_run(world: &World, overrides: &Overrides, duration: f64) -> Result<(f64, &'static str), Wrong> {
+    let (tick, why) = chosen_tick(world)?;
+    let frame = frame_tick(world, duration, overrides.rate)?;
+    if is_smooth(world) && tick == COARSEST_TICK && duration > MANY_TICKS * tick && frame > tick {
+        return Ok((frame, "a frame of the film, as nothing asks for a finer one and the run is long"));
+    }
+    Ok((tick.min(duration), why))
+}
+
+/// Method and reason where motion is smooth.
+const OF_SMOOTH_MOTION: (&str, &str) = (
+    "Dop853",
+    "order 8 with steps as long as an error of 1e-10 of the motion allows, because no bodies touch and no force changes with time",
+);
+
+/// Whether forces change as smoothly as poses do. Then long steps of high order need the fewest evaluations for any
+/// error. Bodies that may touch, drives, controllers and prescribed motions ask for ticks. In a crowd the nearest two
+/// bodies would determine the steps of all.
+fn is_smooth(world: &World) -> bool {
+    let state = world.resource::<State>();
+    let touch = state.contact_law().is_some();
+    let driven = state.has_edges() || state.fastest_rhythm() > 0.0 || !state.bodies().prescribed.motions.is_empty();
+    !touch && !driven && state.force_systems == 0 && state.changing_forces() && !is_crowd(state)
+}
+
+/// Whether so many bodies move by forces that no tick can predict their paths.
+fn is_crowd(state: &State) -> bool {
+    state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD
 }
 
 /// The method that suits the scene, and the reason.
@@ -243,7 +295,7 @@ fn plan_for(
     let estimates = description.one_step.is_some_and(|make| make().order_of_error() > 0);
     plan.pace = if estimates {
         // Trials determine the allowed error of a step.
-        StepPace::Allowed(Allowance { share: 1e-3, longest: duration, most_steps: MOST_STEPS })
+        StepPace::Allowed(Allowance::new(1e-3, duration))
     } else {
         StepPace::Even(steps_per_tick(world, &plan))
     };
@@ -303,7 +355,7 @@ fn count(
 fn install(world: &mut World, plan: &Plan, notes: &mut Vec<String>) -> Result<(), Wrong> {
     let method = described(world, &plan.method)?;
     let mut state = world.resource_mut::<State>();
-    state.clock = Clock { dt: plan.tick, ticks: 0 };
+    state.clock = Clock { dt: plan.tick, ..Clock::default() };
     let stability = &mut state.stability;
     (stability.limit, stability.damping_limit) = (method.stability_limit, method.damping_limit);
     let Some((made, located)) = method.make(plan.events, plan.pace, plan.detail) else {
@@ -347,8 +399,7 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "the scene has no contacts, springs or drives that ask for a finer one");
     let state = world.resource::<State>();
-    let is_crowd = state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD;
-    let (in_contact, digits, contact) = if is_crowd {
+    let (in_contact, digits, contact) = if is_crowd(state) {
         let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of many bodies. A shorter `--tick` \
         foretells paths for longer";
         (TICKS_PER_CONTACT_IN_A_CROWD, &DIGITS_IN_A_CROWD[..], why)
@@ -369,7 +420,11 @@ fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
         let why = "half a swing of the fastest drive lasts at least 40 of them";
         (rhythm.angular_frequency, TICKS_PER_HALF_PERIOD, "drive", why)
     });
-    let all = foreseen.chain(driven);
+    let moved = state.bodies().prescribed.fastest_swing().map(|(_, swing)| {
+        let why = "the fastest path takes at least 40 of them from stop to stop";
+        (PI / swing, TICKS_PER_HALF_PERIOD, "path", why)
+    });
+    let all = foreseen.chain(driven).chain(moved);
     let Some((omega, ticks, what, why)) = all.max_by(|(a, m, ..), (b, n, ..)| (a * m).total_cmp(&(b * n))) else {
         return Ok(coarsest);
     };

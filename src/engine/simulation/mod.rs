@@ -2,6 +2,7 @@
 
 pub mod accuracy;
 mod choice;
+mod default_stiffness;
 pub mod error;
 mod recorder;
 mod sampler;
@@ -26,7 +27,8 @@ use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::sensors::Channel;
 use crate::threads::Threads;
 use crate::tick::{
-    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, open, rebuild,
+    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, look_inside, open,
+    rebuild,
 };
 use crate::world::hull::MendedShapes;
 use crate::world::{Name, atom};
@@ -364,6 +366,7 @@ pub fn begin(
     if let Some(mended) = world.remove_resource::<MendedShapes>() {
         world.resource_mut::<Notes>().0.extend(mended.notes());
     }
+    let stiffness = default_stiffness::choose(world);
     if let Some(factor) = overrides.stiffness {
         atom::stiffen(world, factor);
     }
@@ -372,6 +375,7 @@ pub fn begin(
     for finish in std::mem::take(&mut world.resource_mut::<AfterLoad>().0) {
         finish(world);
     }
+    world.resource_mut::<Notes>().0.extend(stiffness);
     world.resource_mut::<State>().foresee_springs();
     let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;
     if !late.is_empty() {
@@ -384,6 +388,7 @@ pub fn begin(
     }
     let ticks = choice::set_clock(world, overrides).map_err(|error| scene::found_later(world, source, vec![*error]))?;
     if world.contains_resource::<Goal>() {
+        look_inside(world, true);
         look_at_frames(world);
     }
     observe_all(world);

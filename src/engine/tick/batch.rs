@@ -10,6 +10,7 @@ use super::components::{
 use super::failure::{Failure, FailureKind, Trouble};
 use super::flight_permission;
 use super::ledger::Totals;
+use super::looks::Lookers;
 use super::progress::Progress;
 use super::registered::{Registered, SystemKind};
 use super::stages::schedule_stages;
@@ -40,6 +41,8 @@ pub(super) struct Others {
     conditional: bool,
     /// The integrator runs the schedules of evaluations and modes.
     scheduled: bool,
+    /// The integrator has the world.
+    has_world: bool,
     /// No system beside the integrator changes anything of the state in the tick.
     alone: bool,
     /// Others look at it.
@@ -74,23 +77,19 @@ pub(crate) fn advance(world: &mut World, ticks: u64) -> Result<(), Failure> {
     }
     let mut state = world.resource_mut::<State>();
     let watched = state.stopwatch.is_some();
-    let (kept, looked_at) = (state.progress.sim.take(), state.progress.looked_at);
-    let mut sim = match kept {
-        Some(sim) => {
-            if looked_at {
-                flight_permission::note_looks(world);
-            }
-            sim
-        }
-        None => begin(world),
-    };
+    let kept = state.progress.sim.take();
+    let mut sim = kept.unwrap_or_else(|| begin(world));
+    // The work between two batches is no change by others.
+    if world.resource::<State>().progress.looked_at {
+        flight_permission::note_looks(world);
+    }
     let (mut stale, mut troubled) = (false, world.resource::<State>().progress.trouble.is_some());
     for _ in 0..ticks {
         if troubled {
             break;
         }
         if watched {
-            world.resource_mut::<State>().turn_to(TickPart::Begin);
+            world.resource_mut::<State>().bypass_change_detection().turn_to(TickPart::Begin);
         }
         sim.run(world);
         let Some(state) = world.get_resource::<State>() else { return Err(Failure::gone(STATE)) };
@@ -255,9 +254,6 @@ impl State {
 fn prepare(world: &mut World) -> Schedule {
     let now = (world.resource_ref::<Schedules>().last_changed(), world.resource::<State>().progress.version);
     if world.get_resource_or_init::<Others>().known_at == Some(now) {
-        if world.resource::<State>().progress.looked_at {
-            flight_permission::note_looks(world);
-        }
         return take(world, SimTick);
     }
     world.resource_mut::<State>().find_roles();
@@ -271,6 +267,8 @@ fn prepare(world: &mut World) -> Schedule {
     }
     let flies = world.resource::<State>().progress.method.as_ref().is_some_and(|method| method.0.flies());
     flight_permission::allow(world, flies, &sim, [&evaluate, &modes]);
+    let forces_read = Lookers::some_read_forces(world);
+    world.resource_mut::<State>().progress.forces_read = forces_read;
     let alone = world.resource::<Registered>().none_writes(SimTick, &sim);
     let looked_at = sim.graph().systems.len() > 1;
     let mut others = world.resource_mut::<Others>();
@@ -335,17 +333,18 @@ fn keep_components_current(world: &mut World, sim: &mut Schedule, evaluate: &mut
 }
 
 /// Checks whether systems of users are part of evaluations or of the tick. If so, the integrator runs the schedules
-/// with the whole world.
+/// with the whole world. It also has the world if sensors look inside ticks.
 fn choose_way(world: &mut World, sim: &mut Schedule, [evaluate, modes]: [&Schedule; 2]) {
     let registered = world.resource::<Registered>();
     let as_registered = registered.is_as_registered(Evaluate, evaluate) && registered.is_as_registered(Modes, modes);
     // Schedules hand conditions on when they are made ready.
     let conditional = [evaluate, modes].into_iter().any(has_conditions);
+    let looks = Lookers::some_inside(world);
     let mut others = world.resource_mut::<Others>();
     others.conditional |= conditional;
-    let scheduled = !as_registered || others.conditional || others.in_tick;
-    if scheduled && !others.scheduled {
-        others.scheduled = true;
+    others.scheduled |= !as_registered || others.conditional || others.in_tick;
+    if (others.scheduled || looks) && !others.has_world {
+        others.has_world = true;
         // If a user has removed the integrator, it stays removed.
         let gone = sim.remove_systems_in_set(integrate, world, ScheduleCleanupPolicy::RemoveSystemsOnly);
         if gone.is_ok_and(|gone| gone > 0) {

@@ -41,7 +41,8 @@ const NO_PULL: f64 = 1e-12;
 impl State {
     /// From [`Model::begin_step`](super::Model::begin_step): before the step begins, velocities jump, and places with them.
     pub fn strike(&mut self, blow: Blow) {
-        self.blows.push(blow);
+        let by = self.roles.begin_step.get(self.acting).copied().unwrap_or(usize::MAX);
+        self.blows.push((by, blow));
     }
 
     /// Changes velocities by jumps, for models that request it.
@@ -50,7 +51,9 @@ impl State {
             return;
         }
         self.bodies.catch_up();
-        let blows = std::mem::take(&mut self.blows);
+        let mut blows = std::mem::take(&mut self.blows);
+        self.break_joints(time, &mut blows);
+        let blows: Vec<Blow> = blows.into_iter().map(|(_, blow)| blow).collect();
         let (sticks, grips) = (blows.contains(&Blow::Sticks), blows.contains(&Blow::Grips));
         let back = |blow: &Blow| if let Blow::Rebounds(row) = blow { Some(**row) } else { None };
         let back: Vec<Row> = blows.iter().filter_map(back).collect();
@@ -121,11 +124,13 @@ impl State {
 
     /// The same in a blow: rows that only push give no impulse that pulls. The row that would pull most is released,
     /// then the next. A released row is held again if its bodies would move beyond it. These are the active sets of
-    /// Nocedal and Wright, *Numerical Optimization*, 2006, 16.5.
-    pub(super) fn push_apart(&mut self, rows: &mut Rows, time: f64) -> FromOutside {
+    /// Nocedal and Wright, *Numerical Optimization*, 2006, 16.5. Also returns the impulses, with the places of their rows at the
+    /// beginning.
+    pub(super) fn push_apart(&mut self, rows: &mut Rows, time: f64) -> (FromOutside, Vec<(usize, f64)>) {
         let most = 4 * rows.all().iter().filter(|row| row.pushes != 0.0).count();
         let before = (most > 0).then(|| (self.bodies.velocity.clone(), self.bodies.spin.clone()));
-        let mut free: Vec<Row> = Vec::new();
+        let mut free: Vec<(usize, Row)> = Vec::new();
+        let mut places: Vec<usize> = (0..rows.len()).collect();
         let (mut impulses, mut changes) = (Vec::new(), 0);
         loop {
             impulses.clear();
@@ -135,17 +140,21 @@ impl State {
             let pulls = rows.all().iter().zip(&impulses).map(|(row, impulse)| -row.pushes * impulse).enumerate();
             let worst = pulls.max_by(|a, b| a.1.total_cmp(&b.1)).filter(|(_, pull)| *pull > NO_PULL * greatest);
             let goes_on = |row: &Row| row.pushes * row.velocity(&self.bodies) < -NO_PULL * row.speeds(&self.bodies);
-            let again = free.iter().position(goes_on);
+            let again = free.iter().position(|(_, row)| goes_on(row));
             match (worst, again) {
                 (Some((worst, _)), _) if changes < most => {
-                    free.push(rows.all()[worst]);
+                    free.push((places.remove(worst), rows.all()[worst]));
                     let mut indices = 0..;
                     rows.retain(|_| indices.next() != Some(worst));
                 }
-                (None, Some(again)) if changes < most => rows.add(free.remove(again)),
+                (None, Some(again)) if changes < most => {
+                    let (place, row) = free.remove(again);
+                    places.push(place);
+                    rows.add(row);
+                }
                 _ => {
                     self.note_contradiction(refused, rows, time);
-                    return outside;
+                    return (outside, places.into_iter().zip(impulses).collect());
                 }
             }
             changes += 1;

@@ -8,19 +8,27 @@ pub struct Clock {
     pub dt: f64,
     /// Ticks done.
     pub ticks: u64,
+    /// Inside a tick, while sensors look there: the time in seconds.
+    #[serde(skip)]
+    pub(crate) now: Option<f64>,
 }
 
 impl Default for Clock {
     /// A millisecond per tick, at the beginning.
     fn default() -> Self {
-        Self { dt: 1e-3, ticks: 0 }
+        Self { dt: 1e-3, ticks: 0, now: None }
     }
 }
 
 impl Clock {
     /// Time in seconds.
     pub fn time(&self) -> f64 {
-        self.time_of(self.ticks)
+        self.now.unwrap_or_else(|| self.time_of(self.ticks))
+    }
+
+    /// The ticks that have ended or begun, so the number of the tick to which the present state belongs.
+    pub fn ticks_begun(&self) -> u64 {
+        self.ticks + u64::from(self.now.is_some())
     }
 
     /// Time of a tick's beginning in seconds: a product, so that rounding does not add up.

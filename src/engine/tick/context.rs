@@ -6,7 +6,7 @@ use super::failure::{FailureKind, Trouble};
 use super::model::Indicator;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::stopwatch::TickPart;
-use super::{Clock, Evaluation, EvaluationMode, Rates, Span, State};
+use super::{Clock, Evaluation, EvaluationMode, Ledger, Rates, Span, State};
 use crate::tick::bounds::Bounds;
 use crate::world::Bodies;
 use crate::world::motion::Travel;
@@ -20,6 +20,8 @@ pub struct Tick<'a> {
     pub(super) state: &'a mut State,
     /// The schedules, if they contain systems of users.
     pub(super) users: Option<Users<'a>>,
+    /// The world for sensors that look inside ticks, if no systems of users have it.
+    pub(super) lookers: Option<&'a mut World>,
     pub(super) velocity_dependent: bool,
     pub(super) mode: EvaluationMode,
     /// Whether the state was changed by others since the last tick, or is the first of all.
@@ -42,6 +44,8 @@ pub(super) struct Users<'a> {
     pub world: &'a mut World,
     pub evaluate: &'a mut Schedule,
     pub modes: &'a mut Schedule,
+    /// Whether sensors look inside ticks.
+    pub looks: bool,
 }
 
 impl Users<'_> {
@@ -267,6 +271,10 @@ impl Tick<'_> {
         if changed {
             self.evaluate_stage(time);
         }
+        if let Some(row) = self.state.rows.pulling() {
+            let body = row.sides.iter().flatten().map(|side| side.body).rfind(|body| self.state.bodies.dynamic[*body]);
+            self.state.end_run(body.unwrap_or_default(), FailureKind::Pulls);
+        }
     }
 
     /// Called before a step of `length` seconds from the state just evaluated. Candidate lists get a reach of `times`
@@ -283,10 +291,15 @@ impl Tick<'_> {
         renew
     }
 
+    /// Puts the accounts back to what they were before a look at a state inside a step.
+    pub fn restore_ledger(&mut self, ledger: Ledger) {
+        self.state.ledger = ledger;
+    }
+
     /// Shows the current state at `time` seconds, between the states of the motion. Forces are evaluated only for a
     /// reader.
     pub fn show(&mut self, time: f64) {
-        if self.looked_at || self.state.has_events() {
+        if self.looked_at || self.state.progress.forces_read || self.state.has_events() {
             return self.evaluate_stage(time);
         }
         self.packed().pose();

@@ -35,6 +35,8 @@ pub struct WorldFlow<'t, 'w> {
     velocity_dependent: bool,
     watched: bool,
     held: bool,
+    /// The values of all indicators at each evaluation, if they are recorded: times in s.
+    stages: Option<Vec<(f64, Vec<f64>)>>,
 }
 
 impl<'t, 'w> WorldFlow<'t, 'w> {
@@ -51,7 +53,24 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let held = tick.state.is_only_held();
         let velocity_dependent =
             if held { tick.state.depends_on_velocity_beside_joints() } else { tick.velocity_dependent };
-        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched, held }
+        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched, held, stages: None }
+    }
+
+    /// From here on the values of all indicators at each evaluation are recorded, or not.
+    pub fn record_stages(&mut self, records: bool) {
+        self.stages = records.then(Vec::new);
+    }
+
+    /// Ends the record. Returns the time in s of each evaluation, and the values of all indicators there.
+    pub fn recorded_stages(&mut self) -> Vec<(f64, Vec<f64>)> {
+        self.stages.take().unwrap_or_default()
+    }
+
+    fn record(&mut self, time: f64) {
+        let Some(stages) = &mut self.stages else { return };
+        let mut told = Vec::new();
+        self.tick.tell(&mut told);
+        stages.push((time, told.iter().map(|indicator| indicator.value).collect()));
     }
 
     /// Places of the accounts in a state.
@@ -270,6 +289,7 @@ impl Flow for WorldFlow<'_, '_> {
         self.write(state);
         self.tick.evaluate_stage(time);
         self.read_rates(rates);
+        self.record(time);
     }
 
     fn is_held(&self) -> bool {
@@ -280,6 +300,7 @@ impl Flow for WorldFlow<'_, '_> {
         self.write(state);
         self.tick.evaluate_kick(time);
         self.read_rates(rates);
+        self.record(time);
     }
 
     fn drift(&mut self, time: f64, length: f64, state: &mut [f64], change: &mut [f64]) {

@@ -18,7 +18,6 @@ pub(super) fn allow(world: &mut World, flies: bool, sim: &Schedule, [evaluate, m
     let mut state = world.resource_mut::<State>();
     state.bodies.allow_flights(flies);
     state.progress.looked_at = looked_at;
-    note_looks(world);
 }
 
 /// Notes that systems in the tick read the bodies; see [`State::see_writers`].
@@ -50,9 +49,9 @@ impl State {
     }
 }
 
-/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that changes nothing, and reads the state at the ends of
-/// some ticks only. [`look_at_ticks`] receives these ticks.
-pub(crate) fn add_observer_of_ticks<M>(world: &mut World, system: impl IntoScheduleConfigs<ScheduleSystem, M>) {
+/// Adds a system to [`Stage::Observe`](super::Stage::Observe) that changes nothing of bodies and models. It reads bodies at the
+/// ends of those ticks only that [`look_at_ticks`] receives.
+pub(crate) fn add_observer<M>(world: &mut World, system: impl IntoScheduleConfigs<ScheduleSystem, M>) {
     register(world, SimTick, SystemKind::Flies, |schedule| {
         schedule.add_systems(system.in_set(Stage::Observe));
     });

@@ -30,6 +30,7 @@ pub mod after_load;
 mod batch;
 mod blows;
 pub mod bounds;
+mod breaking;
 pub mod clock;
 mod components;
 mod context;
@@ -44,10 +45,12 @@ mod guard;
 pub mod kept;
 pub mod ledger;
 mod loads;
+mod looks;
 mod method;
 mod model;
 mod notes;
 mod ode;
+mod outside;
 pub mod pairs;
 mod progress;
 mod registered;
@@ -63,6 +66,7 @@ pub mod stopwatch;
 pub mod touch;
 mod travel;
 mod undo;
+mod work;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -72,17 +76,19 @@ pub use after_load::{AfterLoad, LoadErrors};
 pub use batch::step;
 pub(crate) use batch::{advance, foresee_components, open, rebuild};
 pub use blows::Blow;
+pub use breaking::{BLOW, BlowAtJoint};
 pub use clock::{Clock, Evaluation, EvaluationMode, Span};
 pub use components::index_of;
 pub use context::Tick;
 pub use differential_equations::{Reach, WorldFlow};
 pub use failure::{Failure, FailureKind};
-pub(crate) use flight_permission::{add_observer_of_ticks, look_at_ticks};
+pub(crate) use flight_permission::{add_observer, look_at_ticks};
 pub use guard::Created;
 pub use ledger::{Ledger, Rates, Totals};
+pub(crate) use looks::{add_inner_looker, look_inside, read_forces_at_ends};
 pub use method::{Integrator, Method};
 pub use model::{
-    Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
+    Bend, Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
 };
 pub use notes::Notes;
 pub use ode::Flow;
@@ -96,6 +102,7 @@ pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};
 pub use travel::{FarTravel, far_travel, largest_travel, stands};
 pub use undo::Undo;
+pub use work::work_of_an_evaluation;
 
 /// The schedule of one tick.
 #[derive(ScheduleLabel, Clone, Copy, Debug, PartialEq, Eq, Hash)]

@@ -8,7 +8,7 @@ use glam::DVec2;
 
 use super::snapshot::{Memory, UnfitSnapshot};
 use super::touch::ContactPoint;
-use super::{EvaluationMode, State, SteadySpring, TimeScales};
+use super::{BlowAtJoint, EvaluationMode, State, SteadySpring, TimeScales};
 use crate::constraints::Rows;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -142,6 +142,14 @@ pub trait Model: Any + Send + Sync {
 
     /// Velocities have jumped before the step ([`State::strike`]): what holds only as long as a bounded force suffices may give way.
     fn after_blow(&mut self, _: &mut State) {}
+
+    /// The force in N at which its rows break. Default: they never do.
+    fn break_force(&self) -> Option<f64> {
+        None
+    }
+
+    /// A blow at its rows, which have a break force. `breaks`: they break by it and give no impulse.
+    fn take_blow(&mut self, _: BlowAtJoint, _breaks: bool) {}
 
     /// Before a step over [`State::span`]: chooses the modes that stay fixed in it. In [`EvaluationMode::Frozen`] only events
     /// change the modes of a model that has [`Model::events`]. Such a model does nothing. See [`Model::has_modes`].
@@ -306,18 +314,46 @@ pub trait Events {
 }
 
 /// An indicator of an event: it is positive while a mode holds, and the event is its root.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Indicator {
     /// Its value in the state just evaluated.
     pub value: f64,
     /// Its rate per second there; NaN if the rate is unknown.
     pub slope: f64,
-    /// A bound of its curvature there: its second derivative, per second squared, is not below minus this.
-    pub bend: f64,
-    /// The rounding error of its value: above minus this it has not vanished. Default: zero.
+    /// The knowledge of its curvature, without which an event inside a step would pass unseen.
+    pub bend: Bend,
+    /// The rounding error of its value: above minus this it has not vanished. Zero for exact values.
     pub rounding: f64,
-    /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Default: zero, no spring acts.
+    /// Angular frequency in rad/s with which springs swing in this mode: steps resolve it. Zero if no spring acts.
     pub swings: f64,
+}
+
+/// The curvature of an indicator within a step.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum Bend {
+    /// Its second derivative, per second squared, is not below minus this number. If its rate is unknown, the absolute
+    /// value is not above this number.
+    AtMost(f64),
+    /// No bound is known. The integrator fits the curvature to values and rates at both ends of a step. If the rate is
+    /// unknown, it fits the curvature to the values at the stages of the step.
+    Fitted,
+}
+
+impl Indicator {
+    /// An indicator with its rate per second, without rounding and without springs.
+    pub fn new(value: f64, slope: f64, bend: Bend) -> Self {
+        Self { value, slope, bend, rounding: 0.0, swings: 0.0 }
+    }
+
+    /// An indicator whose rate is unknown, such as that of the force of a row.
+    pub fn of_value(value: f64, bend: Bend) -> Self {
+        Self::new(value, f64::NAN, bend)
+    }
+
+    /// Whether its course within a step shows in its values at the stages of the step.
+    pub fn is_sampled(&self) -> bool {
+        self.slope.is_nan()
+    }
 }
 
 /// Something that a model did otherwise than the scene asks.

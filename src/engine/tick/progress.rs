@@ -39,6 +39,9 @@ pub(super) struct Progress {
     /// Systems in the tick look at all bodies.
     #[serde(skip)]
     pub looked_at: bool,
+    /// Systems read forces at the end of each tick, also inside a step.
+    #[serde(skip)]
+    pub forces_read: bool,
     /// Ticks at whose ends systems look at all bodies that look at no others, in order.
     pub looks: Vec<u64>,
     /// When the state had changed last as these saw it.

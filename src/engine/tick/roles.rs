@@ -1,6 +1,7 @@
 //! The models of each stage, found when the list of models changes.
 
 use super::model::{Dependence, Model};
+use super::outside::OutsideLaws;
 
 /// The roles of models, which do not change while they act.
 #[derive(Default)]
@@ -30,13 +31,13 @@ pub(super) struct Roles {
 }
 
 impl Roles {
-    pub fn of(models: &mut [Box<dyn Model>]) -> Self {
+    pub fn of(models: &mut [Box<dyn Model>], outside: &OutsideLaws) -> Self {
         let with_events = models.iter_mut().enumerate().filter_map(|(index, model)| model.events().map(|_| index));
         let events = with_events.collect();
         let indices = |is: fn(&dyn Model) -> bool| -> Vec<usize> {
             models.iter().enumerate().filter(|(_, model)| is(&***model)).map(|(index, _)| index).collect()
         };
-        let others = models.iter().filter(|model| !belongs_to_contacts(&***model)).count();
+        let others = models.iter().filter(|model| !belongs_to_contacts(&***model, outside)).count();
         let depends =
             |models: &[Box<dyn Model>], on: &[Dependence]| models.iter().any(|m| on.contains(&m.dependence()));
         Self {
@@ -52,7 +53,7 @@ impl Roles {
             velocity_dependent: depends(models, &[Dependence::Velocity]),
             velocity_beside_joints: models
                 .iter()
-                .filter(|model| !model.has_rows() || model.contact_law().is_some())
+                .filter(|model| !model.has_rows() || outside.law_of(&***model).is_some())
                 .any(|model| model.dependence() == Dependence::Velocity),
             velocity_forces: depends(&models[..others], &[Dependence::Velocity]),
             changing_forces: depends(&models[..others], &[Dependence::Velocity, Dependence::Position]),
@@ -64,6 +65,6 @@ impl Roles {
 }
 
 /// Whether a model is a contact law, or the search for pairs that contact laws go by: these act last.
-pub(super) fn belongs_to_contacts(model: &dyn Model) -> bool {
-    model.contact_law().is_some() || model.finds_pairs()
+pub(super) fn belongs_to_contacts(model: &dyn Model, outside: &OutsideLaws) -> bool {
+    outside.law_of(model).is_some() || model.finds_pairs()
 }

@@ -138,17 +138,17 @@ impl State {
 
     /// Takes over another state, except for the parts that belong to this process.
     fn take_over(&mut self, other: Self) {
-        let Self { bodies, progress, models, roles, stopwatch, ledger, .. } = std::mem::replace(self, other);
+        let Self { bodies, progress, models, roles, outside, stopwatch, ledger, .. } = std::mem::replace(self, other);
         (self.bodies.level, self.bodies.threads) = (bodies.level, bodies.threads);
         self.bodies.counts = bodies.counts;
-        (self.models, self.roles, self.stopwatch) = (models, roles, stopwatch);
+        (self.models, self.roles, self.outside, self.stopwatch) = (models, roles, outside, stopwatch);
         for (account, (name, _)) in self.ledger.accounts.iter_mut().zip(ledger.accounts) {
             account.0 = name;
         }
         let own = &mut self.progress;
         (own.method, own.version, own.shown, own.shown_at) =
             (progress.method, progress.version + 1, progress.shown, progress.shown_at);
-        (own.alone, own.looked_at) = (progress.alone, progress.looked_at);
+        (own.alone, own.looked_at, own.forces_read) = (progress.alone, progress.looked_at, progress.forces_read);
         (own.published_at, own.behind) = (progress.published_at, true);
     }
 }

@@ -265,7 +265,7 @@ impl State {
         }
         self.look_for_dead_points(&mut rows, time);
         let outside = match jump {
-            Some(Jump::Stops(_)) => self.push_apart(&mut rows, time),
+            Some(Jump::Stops(_)) => self.push_apart(&mut rows, time).0,
             _ => self.hold_velocities(&mut rows, time),
         };
         self.projected = rows;

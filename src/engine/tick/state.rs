@@ -11,6 +11,7 @@ use super::bounds::Bounds;
 use super::failure::{FailureKind, Trouble};
 use super::ledger::Totals;
 use super::model::{Energies, Model};
+use super::outside::OutsideLaws;
 use super::pairs::CandidatePairs;
 use super::progress::{LocatedEvents, Progress, StepCount};
 use super::roles::{Roles, belongs_to_contacts};
@@ -38,9 +39,12 @@ pub struct State {
     pub(super) projected: Rows,
     #[serde(skip)]
     pub(super) projection: Projection,
-    /// Blows that come before the next step.
+    /// Blows that come before the next step, each with the index of its model.
     #[serde(skip)]
-    pub(super) blows: Vec<Blow>,
+    pub(super) blows: Vec<(usize, Blow)>,
+    /// The place in `roles.begin_step` of the model that begins its step.
+    #[serde(skip)]
+    pub(super) acting: usize,
     pub(super) joint_drift: JointDrift,
     pub(super) dead_points: DeadPoints,
     pub(crate) evaluation: Evaluation,
@@ -65,6 +69,8 @@ pub struct State {
     pub(super) models: Vec<Box<dyn Model>>,
     #[serde(skip)]
     pub(super) roles: Roles,
+    #[serde(skip)]
+    pub(super) outside: OutsideLaws,
 }
 
 /// Lets some models act on the state that holds them.
@@ -146,18 +152,16 @@ impl State {
     /// Models choose the modes that stay frozen during the step.
     pub(super) fn begin_step(&mut self) {
         self.turn_to(TickPart::Modes);
+        let mut turns = 0..;
         each!(self, begin_step, model => {
+            self.acting = turns.next().unwrap_or_default();
             if self.stopwatch.is_some() {
-                self.turn_to(if model.contact_law().is_some() { TickPart::Rest } else { TickPart::Modes });
+                let is_law = self.outside.law_of(&**model).is_some();
+                self.turn_to(if is_law { TickPart::Rest } else { TickPart::Modes });
             }
             model.begin_step(self);
         });
         self.turn_to(TickPart::Integrate);
-    }
-
-    /// Models look at the state at the end of a tick.
-    pub(super) fn show_to_models(&mut self) {
-        each!(self, end_tick, model => model.end_tick(self));
     }
 
     /// Shows the models that have state of their own and events, in order.
@@ -215,7 +219,7 @@ impl State {
     /// # Panics
     /// While models act: a model cannot add another one. A system in [`Stage::Begin`](super::Stage::Begin) can.
     pub fn add_model(&mut self, model: impl Model) {
-        let index = if belongs_to_contacts(&model) { self.models.len() } else { self.roles.others };
+        let index = if belongs_to_contacts(&model, &self.outside) { self.models.len() } else { self.roles.others };
         self.insert_model(index, model);
     }
 
@@ -226,17 +230,20 @@ impl State {
 
     fn insert_model(&mut self, index: usize, model: impl Model) {
         assert!(
-            index <= self.models.len(),
+            index <= self.models.len() && !self.outside.acting,
             "a model cannot add another one while it acts: a system in `Stage::Begin` can"
         );
         self.note_change();
-        self.roles.others += usize::from(!belongs_to_contacts(&model));
+        self.roles.others += usize::from(!belongs_to_contacts(&model, &self.outside));
         self.models.insert(index, Box::new(model));
         self.progress.version += 1;
     }
 
-    /// Keeps the models for which `keep` is true. Returns the number of removed models.
+    /// Keeps the models for which `keep` is true. Returns the number of removed models. While models act it removes none.
     pub fn retain_models(&mut self, keep: impl FnMut(&mut Box<dyn Model>) -> bool) -> usize {
+        if self.outside.acting {
+            return 0;
+        }
         self.note_change();
         let before = self.models.len();
         self.models.retain_mut(keep);
@@ -257,7 +264,7 @@ impl State {
     /// Finds the roles of the models, if these have changed.
     pub(super) fn find_roles(&mut self) {
         if self.roles.version != Some(self.progress.version) {
-            self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models) };
+            self.roles = Roles { version: Some(self.progress.version), ..Roles::of(&mut self.models, &self.outside) };
             let Self { models, ledger, roles, .. } = self;
             let losses = models.iter().enumerate().filter_map(|(index, model)| Some((index, model.loss()?.account)));
             roles.accounts.extend(losses.map(|(index, account)| (index, ledger.account(account))));
@@ -314,6 +321,11 @@ impl State {
         self.force_systems > 0 || self.roles.velocity_beside_joints
     }
 
+    /// Whether systems of users add forces, whose course in time is unknown.
+    pub(crate) fn has_force_systems(&self) -> bool {
+        self.force_systems > 0
+    }
+
     /// Whether some force depends on velocities.
     pub fn velocity_dependent(&self) -> bool {
         self.force_systems > 0 || self.roles.velocity_dependent
@@ -356,7 +368,7 @@ impl State {
 
     /// The name of the contact law, if there is one.
     pub fn contact_law(&self) -> Option<&'static str> {
-        self.models.iter().find_map(|model| model.contact_law())
+        self.models().find_map(|model| self.law_of(model))
     }
 
     /// All contacts of the current state in canonical order; `None` without a contact law that provides them.

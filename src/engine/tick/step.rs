@@ -7,6 +7,7 @@ use super::batch::{Others, Running, take_up};
 use super::context::{Tick, Users};
 use super::failure::{Failure, FailureKind, Trouble};
 use super::flight_permission;
+use super::looks::Lookers;
 use super::stopwatch::TickPart;
 use super::{Method, State};
 use crate::world::{Name, finite};
@@ -25,7 +26,8 @@ pub(super) fn integrate(mut state: ResMut<State>) {
     state.note_looks(changed);
 }
 
-/// The system of [`Stage::Integrate`] in runs with systems of users in the tick or in evaluations.
+/// The system of [`Stage::Integrate`] in runs with systems of users in the tick or in evaluations. Runs with sensors that look
+/// inside ticks have it too.
 pub(super) fn integrate_among_systems(world: &mut World) {
     let changed = world.resource_ref::<State>().last_changed();
     world.resource_mut::<State>().see_writers(changed);
@@ -55,7 +57,11 @@ impl State {
         let before = self.progress.before.take();
         let fresh = !self.progress.current || touched || before.is_some();
         let velocity_dependent = self.velocity_dependent();
-        let users = world.zip(schedules.as_mut()).map(|(world, [evaluate, modes])| Users { world, evaluate, modes });
+        let looks = world.as_deref().is_some_and(Lookers::some_inside);
+        let (users, lookers) = match (world, schedules.as_mut()) {
+            (Some(world), Some([evaluate, modes])) => (Some(Users { world, evaluate, modes, looks }), None),
+            (world, _) => (None, world.filter(|_| looks)),
+        };
         let looked_at = users.is_some();
         let (begin, end) = (clock.time(), clock.time_of(clock.ticks + 1));
         self.progress.alone = *alone && !looked_at;
@@ -63,6 +69,7 @@ impl State {
         let mut tick = Tick {
             state: self,
             users,
+            lookers,
             velocity_dependent,
             mode,
             fresh,
@@ -90,7 +97,11 @@ impl State {
             if !mode.is_staged() {
                 tick.choose_modes(tick.begin, tick.end);
             }
+            let beginning = tick.exact_beginning();
             method.0.advance(&mut tick);
+            if let Some(beginning) = beginning {
+                tick.look_between(&beginning);
+            }
         }
         let alert = tick.alert;
         self.progress.running = Some(running);
@@ -153,10 +164,11 @@ pub(super) fn refresh(world: &mut World) {
     let Running { method, schedules, .. } = &mut *running;
     let (mode, now, dt, velocity_dependent) =
         (method.0.mode(), state.clock.time(), state.clock.dt, state.velocity_dependent());
-    let users = schedules.as_mut().map(|[evaluate, modes]| Users { world, evaluate, modes });
+    let users = schedules.as_mut().map(|[evaluate, modes]| Users { world, evaluate, modes, looks: false });
     let mut tick = Tick {
         state: &mut state,
         users,
+        lookers: None,
         velocity_dependent,
         mode,
         fresh: false,
@@ -168,6 +180,8 @@ pub(super) fn refresh(world: &mut World) {
         alert: false,
     };
     tick.evaluate_stage(now);
+    // The state may lie inside a step, whose lists are known to reach far enough.
+    tick.recall_bounds();
     state.progress.running = Some(running);
     *world.resource_mut::<State>() = state;
 }

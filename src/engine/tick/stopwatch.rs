@@ -123,7 +123,7 @@ pub fn systems(world: &World) -> Vec<(TickPart, Vec<String>)> {
     }
     let state = world.resource::<State>();
     for model in state.models() {
-        let part = match (model.contact_law(), model.finds_pairs()) {
+        let part = match (state.law_of(model), model.finds_pairs()) {
             (Some(_), _) => TickPart::Contacts,
             (None, true) => TickPart::Pairs,
             (None, false) => TickPart::Forces,

@@ -39,12 +39,13 @@ impl DeepestOverlap {
         }
     }
 
-    fn of(overlap: Overlap) -> Self {
+    /// One overlap alone.
+    pub fn of(overlap: Overlap) -> Self {
         Self { in_meters: overlap, in_share: overlap }
     }
 
     /// Takes over deeper overlaps.
-    pub(crate) fn merge(&mut self, other: &Self) {
+    pub fn merge(&mut self, other: &Self) {
         if other.in_meters.overlap > self.in_meters.overlap {
             self.in_meters = other.in_meters;
         }

@@ -17,7 +17,7 @@ pub struct Atom {
     pub radius: f64,
     /// Mass in kg: its share of the body's mass, for systems that act on atoms.
     pub mass: f64,
-    /// Contact stiffness in N/m.
+    /// Contact stiffness in N/m. While a scene is read, it is NaN for a material that gives none.
     pub stiffness: f64,
     /// The index of its material.
     pub material: MaterialIndex,
@@ -52,6 +52,19 @@ pub(crate) fn stiffen(world: &mut World, factor: f64) {
     let stiffer = |(entity, atom): (Entity, &Atom)| (entity, Atom { stiffness: factor * atom.stiffness, ..*atom });
     let atoms: Vec<_> = atoms.iter(world).map(stiffer).collect();
     atoms.into_iter().for_each(|(entity, atom)| _ = world.entity_mut(entity).insert(atom));
+}
+
+/// Whether an atom waits for the stiffness of its material.
+pub(crate) fn any_without_stiffness(world: &mut World) -> bool {
+    world.query::<&Atom>().iter(world).any(|atom| atom.stiffness.is_nan())
+}
+
+/// Gives this stiffness in N/m to all atoms that wait for it.
+pub(crate) fn give_stiffness(world: &mut World, stiffness: f64) {
+    let mut atoms = world.query::<(Entity, &Atom)>();
+    let waiting = atoms.iter(world).filter(|(_, atom)| atom.stiffness.is_nan());
+    let given: Vec<_> = waiting.map(|(entity, atom)| (entity, Atom { stiffness, ..*atom })).collect();
+    given.into_iter().for_each(|(entity, atom)| _ = world.entity_mut(entity).insert(atom));
 }
 
 impl Atoms {

@@ -96,6 +96,65 @@ impl Path {
     }
 }
 
+impl Path {
+    /// The shortest time in seconds from a stop to the next one. A point where it turns back counts as a stop. Infinity: there is
+    /// none. A round that never stops swings twice.
+    pub fn shortest_swing(&self) -> f64 {
+        let pieces = || self.points.windows(2).map(|ends| (ends[0], ends[1], way(&ends[0], &ends[1])));
+        let (mut shortest, mut began, mut stops) = (f64::INFINITY, 0.0, false);
+        let next = pieces().skip(1).map(|(.., way)| Some(way)).chain([None]);
+        for ((from, to, moved), next) in pieces().zip(next) {
+            let turns = next.is_some_and(|next| next.0.dot(moved.0) < 0.0 || next.1 * moved.1 < 0.0);
+            let goes = moved != (DVec2::ZERO, 0.0) || from.goes() || to.goes();
+            if goes && !to.goes() || turns {
+                shortest = shortest.min(to.time - began);
+            }
+            if !to.goes() || turns {
+                (began, stops) = (to.time, true);
+            }
+        }
+        let [first, last] = [self.points[0], self.points[self.points.len() - 1]];
+        let jumps = (first.velocity, first.spin) != (last.velocity, last.spin);
+        match self.repeat && last.time > 0.0 {
+            true if stops && jumps && last.time > began => shortest.min(last.time - began),
+            true if !stops && (jumps || self.bends()) => last.time / 2.0,
+            _ => shortest,
+        }
+    }
+
+    /// Bounds of its greatest speed in m/s and spin in rad/s. Between points at rest, a cubic is half as fast again as its mean.
+    pub fn fastest(&self) -> (f64, f64) {
+        let ends = self.points.iter().map(|point| (point.velocity.length(), point.spin.abs()));
+        let means = self.points.windows(2).map(|ends| {
+            let ((by, turn), length) = (way(&ends[0], &ends[1]), ends[1].time - ends[0].time);
+            let beside = ends.iter().fold((0.0, 0.0), |(v, w), end| (v + end.velocity.length(), w + end.spin.abs()));
+            (1.5 * by.length() / length + 0.5 * beside.0, 1.5 * turn.abs() / length + 0.5 * beside.1)
+        });
+        ends.chain(means).fold((0.0, 0.0), |(v, w), (speed, spin)| (f64::max(v, speed), f64::max(w, spin)))
+    }
+
+    /// Whether its velocity changes.
+    fn bends(&self) -> bool {
+        let straight = |ends: &[PathPoint]| {
+            let (by, turn) = way(&ends[0], &ends[1]);
+            let length = ends[1].time - ends[0].time;
+            ends.iter().all(|end| end.velocity * length == by && end.spin * length == turn)
+        };
+        !self.points.windows(2).all(straight)
+    }
+}
+
+impl PathPoint {
+    fn goes(&self) -> bool {
+        self.velocity != DVec2::ZERO || self.spin != 0.0
+    }
+}
+
+/// The way and the turn from one point to another.
+fn way(from: &PathPoint, to: &PathPoint) -> (DVec2, f64) {
+    (to.by - from.by, to.turn - from.turn)
+}
+
 /// Second derivatives of the cubic.
 fn bending(from: &PathPoint, to: &PathPoint, time: f64) -> (DVec2, f64) {
     let length = to.time - from.time;
@@ -219,6 +278,21 @@ impl Prescribed {
         self.motions.iter().map(next).filter(|&point| point > time).fold(f64::INFINITY, f64::min)
     }
 
+    /// Whether the path of body `body` leads on: its motion is prescribed, and changes now or later.
+    pub fn leads_on(&self, body: usize) -> bool {
+        let index = self.motions.binary_search_by_key(&body, |motion| motion.0);
+        index.is_ok_and(|index| {
+            let motion = &self.motions[index].1;
+            motion.path.next_point(self.time - motion.since).is_finite()
+        })
+    }
+
+    /// The body with the shortest swing ([`Path::shortest_swing`]), by its index, and that time in seconds.
+    pub fn fastest_swing(&self) -> Option<(usize, f64)> {
+        let swings = self.motions.iter().map(|(body, motion)| (*body, motion.path.shortest_swing()));
+        swings.filter(|(_, swing)| swing.is_finite()).min_by(|a, b| a.1.total_cmp(&b.1))
+    }
+
     /// The state of body `body` in `ahead` seconds, if its motion is prescribed.
     pub fn ahead(&self, body: usize, ahead: f64) -> Option<PrescribedState> {
         let index = self.motions.binary_search_by_key(&body, |motion| motion.0).ok()?;
@@ -272,6 +346,26 @@ mod tests {
             assert!((velocity - now.velocity).length() < 1e-7, "{t}: {velocity} {}", now.velocity);
             assert!(((after.angle - before.angle) / (2.0 * h) - now.spin).abs() < 1e-7, "{t}");
         }
+    }
+
+    /// Law: a path swings from stop to stop, or from one turn back to the next. A point that it passes ends no swing, nor does a
+    /// rest.
+    #[test]
+    fn a_path_swings_from_stop_to_stop() {
+        let still = DVec2::ZERO;
+        let passed = |time, x, v| PathPoint { velocity: DVec2::new(v, 0.0), ..stop(time, x, 0.0) };
+        let swing = |velocity, points: &[PathPoint], repeat| Path::new(velocity, 0.0, points, repeat).shortest_swing();
+        for repeat in [false, true] {
+            assert_eq!(swing(still, &[stop(0.5, 0.5, 0.0), stop(2.0, 0.0, 0.0)], repeat), 0.5);
+            assert_eq!(swing(still, &[stop(3.0, 0.0, 0.0), stop(4.0, 1.0, 0.0), stop(6.0, 0.0, 0.0)], repeat), 1.0);
+            assert_eq!(swing(still, &[passed(1.0, 1.0, 2.0), stop(3.0, 3.0, 0.0), stop(9.0, 0.0, 0.0)], repeat), 3.0);
+            assert_eq!(swing(still, &[stop(1.5, 0.0, 0.4), stop(2.0, 0.0, 0.0)], repeat), 0.5);
+            assert_eq!(swing(DVec2::X, &[], repeat), f64::INFINITY);
+            assert_eq!(swing(DVec2::X, &[passed(2.0, 2.0, 1.0)], repeat), f64::INFINITY);
+        }
+        let there = [passed(1.0, 0.0, 1.0), passed(2.0, 2.0, -1.0)];
+        assert_eq!(swing(-DVec2::X, &there, false), f64::INFINITY);
+        assert_eq!(swing(-DVec2::X, &there, true), 1.0);
     }
 
     #[test]

@@ -3,7 +3,7 @@
 //! The pair takes the mean of the two materials' friction unless `pairs` says otherwise. The rebound stays in the form
 //! of the scene for each of the two. The contact law makes one number of both.
 
-use std::collections::BTreeMap;
+use std::collections::{BTreeMap, BTreeSet};
 use std::fmt;
 
 use bevy_app::App;
@@ -22,10 +22,13 @@ pub const DEFAULT: &str = "default";
 /// The open list of words for colours: what draws the scene registers them.
 pub const COLORS: &str = "color";
 
+/// The least stiffness in N/m of a material that gives none.
+pub const LEAST_STIFFNESS: f64 = 1000.0;
+
 /// One material, all numbers in SI units.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Material {
-    /// Stiffness of an atom in N/m. Default: 1000.
+    /// Stiffness of an atom in N/m. Default: chosen when the scene stands, and [`LEAST_STIFFNESS`] before.
     pub stiffness: f64,
     /// Coefficient of static friction. Default: 0.
     pub friction_static: f64,
@@ -43,7 +46,7 @@ impl Default for Material {
     /// Properties that a scene does not name are not modelled: no friction, no losses.
     fn default() -> Self {
         Self {
-            stiffness: 1000.0,
+            stiffness: LEAST_STIFFNESS,
             friction_static: 0.0,
             friction_dynamic: 0.0,
             rebound: Rebound::Restitution(1.0),
@@ -105,6 +108,8 @@ pub struct Materials {
     /// The materials; the first is [`DEFAULT`], the others follow in the order of the scene.
     pub by_index: Vec<Material>,
     overrides: BTreeMap<(usize, usize), Override>,
+    /// The indices of materials that give no stiffness.
+    without_stiffness: BTreeSet<usize>,
 }
 
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -115,7 +120,12 @@ struct Override {
 
 impl Default for Materials {
     fn default() -> Self {
-        Self { names: vec![DEFAULT.into()], by_index: vec![Material::default()], overrides: BTreeMap::new() }
+        Self {
+            names: vec![DEFAULT.into()],
+            by_index: vec![Material::default()],
+            overrides: BTreeMap::new(),
+            without_stiffness: BTreeSet::from([0]),
+        }
     }
 }
 
@@ -124,12 +134,17 @@ impl Materials {
     pub fn new(materials: Option<&MaterialsSection>, pairs: Option<&PairsSection>) -> Self {
         let mut all = Self::default();
         for (name, entry) in materials.iter().flat_map(|section| &section.0.0) {
-            if name == DEFAULT {
+            let index = if name == DEFAULT { 0 } else { all.by_index.len() };
+            if index == 0 {
                 all.by_index[0] = entry.material();
             } else {
                 all.names.push(name.clone());
                 all.by_index.push(entry.material());
             }
+            match entry.stiffness {
+                Some(_) => all.without_stiffness.remove(&index),
+                None => all.without_stiffness.insert(index),
+            };
         }
         if let Some(pairs) = pairs {
             all.set_pairs(pairs);
@@ -147,6 +162,17 @@ impl Materials {
         }
     }
 
+    /// The stiffness in N/m that a material gives.
+    pub fn stiffness(&self, index: usize) -> Option<f64> {
+        self.by_index.get(index).filter(|_| !self.without_stiffness.contains(&index)).map(|material| material.stiffness)
+    }
+
+    /// Gives this stiffness in N/m to materials without one.
+    pub(crate) fn give_stiffness(&mut self, stiffness: f64) {
+        let Self { by_index, without_stiffness, .. } = self;
+        without_stiffness.iter().for_each(|&index| by_index[index].stiffness = stiffness);
+    }
+
     fn find(&self, name: &str) -> Option<usize> {
         self.names.iter().position(|other| other == name)
     }
@@ -159,7 +185,9 @@ impl Materials {
     /// The coefficients of two materials, given by their indices: the means of their frictions, unless `pairs` gives
     /// others. An unknown index counts as the default.
     pub fn pair(&self, a: usize, b: usize) -> PairCoefficients {
-        let default = &self.by_index[0];
+        // A program may have taken all of them out.
+        let neutral = Material::default();
+        let default = self.by_index.first().unwrap_or(&neutral);
         let (first, second) = (self.by_index.get(a).unwrap_or(default), self.by_index.get(b).unwrap_or(default));
         let mean = |of: fn(&Material) -> f64| (of(first) + of(second)) / 2.0;
         let other = self.overrides.get(&ordered(a, b)).copied().unwrap_or_default();
@@ -297,7 +325,8 @@ fn check_rebound(restitution: Option<Scalar>, inelasticity: Option<Scalar>, repo
 #[serde(deny_unknown_fields, default, rename = "")]
 #[schemars(rename = "Material")]
 pub struct MaterialEntry {
-    /// Stiffness of an atom in N/m. Above zero. Default: 1000.
+    /// Stiffness of an atom in N/m. Above zero. A material without one gets the stiffness that suits the weights and speeds at the
+    /// start. The card names it. Default: 1000, or more in heavy and fast scenes.
     pub stiffness: Option<Stiffness>,
     /// Coefficient of friction, not below zero: one number, or one for holding and one for slipping. Default: 0.
     pub friction: Option<Friction>,

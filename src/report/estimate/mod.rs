@@ -8,6 +8,7 @@
 
 mod growth;
 mod model_error;
+mod other_kind;
 mod rounding;
 mod twins;
 pub mod validation;
@@ -25,6 +26,7 @@ use jostle_engine::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use jostle_engine::simulation::{Overrides, Plan};
 use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::number;
+pub use other_kind::Elsewhere;
 use twins::{Finer, Told};
 use work::{Patience, SHARE};
 
@@ -77,6 +79,10 @@ pub struct EstimatedError {
     pub known_until: Option<f64>,
     /// The time in s from which stiffer contacts lead elsewhere. The error of the model holds until then.
     pub model_until: Option<f64>,
+    /// The departure of runs of the other kind, if they go farther than both errors explain.
+    pub elsewhere: Option<Elsewhere>,
+    /// The failure of a run with finer steps.
+    pub failed: Option<String>,
     /// Further notes on it.
     pub notes: Vec<String>,
 }
@@ -123,7 +129,8 @@ impl Repeated<'_> {
 /// Makes ready to estimate the error of a run that is at its beginning: some of its states are kept.
 pub fn watch(simulation: &mut Simulation, wanted: EstimateRequest) {
     let known = simulation.contains_resource::<KnownError>();
-    if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !known) {
+    let told = known && !other_kind::loads_change(simulation);
+    if wanted.rounding || wanted.model || (wanted.effort != Effort::None && !told) {
         let moments = moments(simulation);
         Trajectory::watch(simulation, moments);
     }
@@ -171,6 +178,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Re
     if known.is_none() && wanted.effort != Effort::None && simulation.clock().ticks > 0 {
         discretisation(simulation, &run, wanted.effort, scene, &mut found)?;
     }
+    other_kind::check(simulation, &run, wanted.effort, scene, &mut found)?;
     if wanted.rounding {
         rounding::estimate(simulation, &run, scene, &mut found)?;
     }
@@ -217,7 +225,7 @@ fn discretisation(
         ));
         return Ok(());
     }
-    let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.steps()));
+    let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.work()));
     let (mut told, mut order) = (Told::default(), expected_order(simulation));
     let (motion, mut observed) = (run.sizes().0, None);
     if effort == Effort::Full {
@@ -226,13 +234,22 @@ fn discretisation(
     }
     let mut first_twin = None;
     for (number, &finer) in twins.iter().enumerate() {
-        let Some((twin, second)) = twins::run(simulation, (finer, until), patience(finer), scene)? else {
+        let (mut finer, mut made) = (finer, None);
+        if finer.located {
+            made = twins::run_located(simulation, (finer, until), patience(finer), scene);
+            finer = if made.is_some() { finer } else { twins::second_by_ticks(simulation) };
+        }
+        if made.is_none() {
+            made = twins::run(simulation, (finer, until), patience(finer), scene)?;
+        }
+        let Some((twin, second)) = made else {
             found.began = None;
             found.notes.push("the error is not estimated: that takes long. --estimate takes the time".to_owned());
             return Ok(());
         };
         if let Some(failure) = &twin.failure {
             found.notes.push(format!("the error is not estimated: with finer steps {failure}"));
+            found.failed = Some(failure.to_string());
             return Ok(());
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));

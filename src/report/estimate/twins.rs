@@ -5,18 +5,19 @@
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
 //! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
 //! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
-//! except for one in ten of the first run.
+//! except for one in ten of the first run. If contacts carried loads that change, one twin is of the other kind
+//! (`other_kind.rs`).
 
 use super::growth::{Growth, Seen};
 use super::work::{self, Patience, TooLong};
-use super::{Repeated, moments, touches};
+use super::{Repeated, moments, other_kind, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
-use jostle_engine::integrate::{Detail, StepPace};
+use jostle_engine::integrate::{Detail, EventTiming, ORDER, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
-use jostle_engine::tick::State;
+use jostle_engine::tick::{Model, State};
 use jostle_language::numbers::number;
 
 /// Upper bound of the first run's ticks between two ends that its twins share. Then the least number of shared ends.
@@ -32,17 +33,35 @@ pub(super) struct Finer {
     pub of: u32,
     /// Equal parts of each step, and parts of the angle over which contacts swing in one.
     pub parts: u32,
+    /// Whether a method with located events makes it, unlike the first run.
+    pub located: bool,
+    /// The share of the allowed error, where the length of steps follows from it.
+    pub allowed: f64,
 }
+
+/// The method of twins with located events in place of velocity Verlet. A step takes so many evaluations: four stages,
+/// and a look for events.
+const LOCATED: &str = "RungeKutta4";
+const EVALUATIONS: f64 = 5.0;
 
 impl Finer {
     /// The same run once more.
-    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1 };
+    pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, located: false, allowed: 1.0 };
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
+    /// With the same tick by a method with located events.
+    pub const LOCATED: Self = Self { located: true, ..Self::SAME };
+    /// With a tenth of the error allowed to a step.
+    const TENTH: Self = Self { allowed: 0.1, ..Self::SAME };
 
     /// The factor by which its steps are shorter.
     pub fn steps(self) -> f64 {
-        f64::from(self.ticks * self.parts) / f64::from(self.of)
+        f64::from(self.ticks * self.parts) / f64::from(self.of) * libm::pow(self.allowed, -1.0 / ORDER)
+    }
+
+    /// Its work over that of the first run.
+    pub fn work(self) -> f64 {
+        self.steps() * if self.located { EVALUATIONS } else { 1.0 }
     }
 
     /// Whether a tick of the twin ends with tick `tick` of the first run.
@@ -55,21 +74,33 @@ impl Finer {
         tick / u64::from(self.of) * u64::from(self.ticks)
     }
 
-    /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step.
+    /// The remaining error, as a multiple of the difference, if errors fall with the power `order` of the step. That of
+    /// a twin with located events is of a higher order.
     pub fn left(self, order: f64) -> f64 {
-        1.0 / (1.0 - libm::pow(self.steps(), -order))
+        if self.located {
+            return 1.0;
+        }
+        if self.allowed < 1.0 { 1.0 / (1.0 - self.allowed) } else { 1.0 / (1.0 - libm::pow(self.steps(), -order)) }
     }
 
-    /// The plan of such a run; nothing, where steps are as long as their error allows.
+    /// The plan of such a run; nothing, if it would be no finer than the first.
     pub fn plan(self, simulation: &Simulation) -> Option<Plan> {
         let plan = simulation.plan()?.clone();
+        if let StepPace::Allowed(allowance) = plan.pace {
+            let pace = StepPace::Allowed(allowance.with_share(self.allowed * allowance.share));
+            return (self.allowed < 1.0).then_some(Plan { pace, ..plan });
+        }
         let tick = plan.tick * f64::from(self.of) / f64::from(self.ticks);
         let detail = Detail {
             parts: plan.detail.parts * self.parts,
             looks: plan.detail.looks,
             swing: plan.detail.swing / f64::from(if self.ticks > 1 { self.parts } else { 1 }),
         };
-        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, ..plan })
+        let (method, events) = match self.located {
+            true => (LOCATED.to_owned(), EventTiming::Located),
+            false => (plan.method.clone(), plan.events),
+        };
+        (plan.pace == StepPace::Even(1)).then_some(Plan { tick, detail, method, events, ..plan })
     }
 }
 
@@ -97,13 +128,17 @@ pub(super) fn cycles_of(simulation: &Simulation) -> [u32; 2] {
 /// becomes taut, a joint that breaks, and friction that sticks.
 fn switches_at_ticks(simulation: &Simulation) -> bool {
     let world = simulation.unpublished_world();
-    let mut models = world.resource::<State>().models();
-    !ChosenMethod::locates(world) && models.any(|model| model.has_modes() && model.contact_law().is_none())
+    let state = world.resource::<State>();
+    let switches = |model: &dyn Model| model.has_modes() && state.law_of(model).is_none();
+    !ChosenMethod::locates(world) && state.models().any(switches)
 }
 
 /// The twins that give the error of a finished run.
 pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
     let world = simulation.unpublished_world();
+    if simulation.plan().and_then(Plan::allowed).is_some() {
+        return vec![Finer::TENTH];
+    }
     let located = ChosenMethod::locates(world);
     let jumped = if located {
         world.resource::<State>().located().count > 0
@@ -115,16 +150,26 @@ pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
         // The same ticks, and so the same steps from event to event, in halves; and others.
         (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
         (true, false) => {
-            let [first, second] = cycles_of(simulation);
-            let twin = |times: u32, of: u32| Finer { ticks: times * of + u32::from(of > 1), of, parts: 1 };
-            vec![twin(2, first), twin(3, second)]
+            let first = by_ticks(2, cycles_of(simulation)[0]);
+            let second = if other_kind::carried(simulation) { Finer::LOCATED } else { second_by_ticks(simulation) };
+            vec![first, second]
         }
     }
 }
 
+/// A twin with ticks more than `times` as short, which end elsewhere except for one in `of`.
+fn by_ticks(times: u32, of: u32) -> Finer {
+    Finer { ticks: times * of + u32::from(of > 1), of, ..Finer::SAME }
+}
+
+/// The second twin of a run from tick to tick.
+pub(super) fn second_by_ticks(simulation: &Simulation) -> Finer {
+    by_ticks(3, cycles_of(simulation)[1])
+}
+
 /// The work of twins, over that of the first run.
 pub(super) fn work(twins: &[Finer]) -> f64 {
-    twins.iter().map(|twin| twin.steps()).sum()
+    twins.iter().map(|twin| twin.work()).sum()
 }
 
 /// Looks at another run, so much finer, at the moments of the first, until the end of its tick `until`.
@@ -142,13 +187,28 @@ pub(super) fn run(
 ) -> Result<Option<(Trajectory, Simulation)>, SceneErrors> {
     let Some(plan) = finer.plan(first) else { return Ok(None) };
     let steps = if finer.parts > 1 { format!(" and steps in {} parts", finer.parts) } else { String::new() };
-    let what = format!("once more with a tick of {} s{steps}, for its error", number(plan.tick));
+    let what = match finer.allowed {
+        1.0 => format!("once more with a tick of {} s{steps}, for its error", number(plan.tick)),
+        share => format!("once more with {share} of the error allowed to a step, for its error"),
+    };
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
     Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience) {
         Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
         Err(TooLong) => None,
     })
+}
+
+/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if some of
+/// its ticks held too many events to locate.
+pub(super) fn run_located(
+    first: &Simulation,
+    how: (Finer, u64),
+    patience: Option<Patience>,
+    scene: &Repeated,
+) -> Option<(Trajectory, Simulation)> {
+    let made = run(first, how, patience, scene).ok().flatten();
+    made.filter(|(twin, _)| twin.failure.is_none() && !twin.overloaded)
 }
 
 /// The results of twins on the error of a run.

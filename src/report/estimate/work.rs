@@ -1,11 +1,10 @@
-//! The work of an estimate, as a count that does not depend on the computer or on its load.
-//!
-//! The unit is an evaluation of the forces of a world without atoms: about half a microsecond.
+//! The work of an estimate, as a count that does not depend on the computer or on its load. The unit is that of
+//! [`work_of_an_evaluation`].
 
 use std::time::{Duration, Instant};
 
 use jostle_engine::Simulation;
-use jostle_engine::tick::{Failure, State};
+use jostle_engine::tick::{Failure, State, work_of_an_evaluation};
 
 /// The share of the run's work that an estimate may take by default.
 pub(super) const SHARE: f64 = 0.03;
@@ -14,12 +13,6 @@ const FREE: f64 = 1e6;
 /// ... or two and a half times as much, if that suffices for the whole run.
 const WHOLE: f64 = 2.5e6;
 
-/// The work of an evaluation for each atom, each row of the constraints, and each pair of neighbours.
-const PER_ATOM: f64 = 0.04;
-const PER_ROW: f64 = 0.5;
-const PER_PAIR: f64 = 0.1;
-/// The same for each pair that touches: the search for rest takes most of it.
-const PER_CONTACT: f64 = 1.0;
 /// The work of reading a scene, for each atom.
 const READING: f64 = 8.0;
 
@@ -30,18 +23,18 @@ const SECONDS: f64 = 5.0;
 const SHARE_OF_TIME: f64 = 0.5;
 /// Parts of a run between which it is seen whether it takes too long.
 const CHUNKS: u64 = 64;
+/// The share of a finer run after which the count of its evaluations foretells the whole. A run whose beginning is
+/// dearer than its end does not exceed that by the excess that is allowed.
+const TELLS: f64 = 0.25;
 
 /// Evaluations of forces so far.
 fn evaluations(simulation: &Simulation) -> f64 {
     simulation.resource::<State>().evaluation().count as f64
 }
 
-/// The work of an evaluation of a finished run, from the neighbours, contacts and rows at its end.
+/// The work of an evaluation of a finished run, from what is there at its end.
 fn per_evaluation(simulation: &Simulation) -> f64 {
-    let (state, bodies) = (simulation.resource::<State>(), simulation.bodies());
-    let (near, touching) = state.pairs().map_or((0, 0), |pairs| pairs.count(bodies));
-    let (atoms, rows) = (bodies.atom_count() as f64, state.rows().len() as f64);
-    1.0 + PER_ATOM * atoms + PER_ROW * rows + PER_PAIR * near as f64 + PER_CONTACT * touching as f64
+    work_of_an_evaluation(simulation.resource())
 }
 
 /// The part of a run that finer runs can repeat for little work, if they take `times` its work.
@@ -86,7 +79,9 @@ pub(super) fn run_to_tick(
     let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
     let mut failure = None;
     while failure.is_none() && simulation.clock().ticks < until {
-        let is_over = |most: Patience| evaluations(simulation) > most.evaluations || begin.elapsed() > most.time;
+        let done = simulation.clock().ticks as f64 / until as f64;
+        let foretold = evaluations(simulation) / if done > TELLS { done } else { 1.0 };
+        let is_over = |most: Patience| foretold > most.evaluations || begin.elapsed() > most.time;
         if patience.is_some_and(is_over) {
             return Err(TooLong);
         }

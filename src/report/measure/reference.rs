@@ -10,7 +10,7 @@ use super::measured_scene::Scene;
 use super::{Budget, Load, Way, plan, timed};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::clock_section::EventTiming;
-use jostle_engine::integrate::{Allowance, MOST_STEPS, StepPace};
+use jostle_engine::integrate::{Allowance, StepPace};
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::accuracy::reference::{BESIDE, COARSE, FINE, TELLS_NOTHING, disturb, horizon};
@@ -91,12 +91,7 @@ pub(super) struct Truth {
 
 /// The plan of a run of `duration` seconds with located events, whose steps may err by `share` of the motion.
 pub(super) fn located(tick: f64, share: f64, duration: f64) -> Plan {
-    plan(
-        "Dop853",
-        tick,
-        StepPace::Allowed(Allowance { share, longest: duration, most_steps: MOST_STEPS }),
-        EventTiming::Located,
-    )
+    plan("Dop853", tick, StepPace::Allowed(Allowance::new(COARSE, duration).with_share(share)), EventTiming::Located)
 }
 
 /// Why runs with located events are no reference.

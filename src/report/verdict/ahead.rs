@@ -4,6 +4,7 @@ use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust, VerdictPart};
 use crate::Remedy;
 use jostle_engine::contacts::search::OverlapAtStart;
+use jostle_engine::forces::resists;
 use jostle_engine::tick::State;
 use jostle_language::numbers::{number, percent};
 
@@ -12,22 +13,36 @@ const COMPRESSED: f64 = 0.1;
 /// Drag that took a smaller share of that energy has not reversed any velocity.
 const TAKEN: f64 = 0.3;
 
-/// Bodies overlap at the start, and springs that no motion has compressed drive them apart.
+/// Contacts that saw less than this share of an overlap at the start do not see the overlap. A corner inside a side lies as deep as
+/// the two bodies overlap.
+const SEEN: f64 = 0.5;
+
+/// Bodies overlap at the start, and springs that no motion has compressed drive them apart. Or no contact sees them: bars that cross
+/// have no corner inside each other.
 pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
     let overlap = world.get_resource::<OverlapAtStart>()?;
     let begin = world.resource::<State>().ledger().start?;
     let share = begin.elastic / card.energy_scale.max(begin.elastic);
     let (a, b) = (evidence.name(overlap.between.0), evidence.name(overlap.between.1));
-    let what = format!(
-        "`{a}` and `{b}` overlap at the start by {} of the smaller radius. Contacts hold {} J from the start on, {} of the energy \
+    let unseen = world.resource::<State>().deepest_overlap().in_share.share < SEEN * overlap.share;
+    let what = if unseen {
+        let by = percent(overlap.share);
+        format!(
+            "`{a}` and `{b}` overlap at the start by {by} of the smaller radius, and no contact parts them. Neither has a corner in the \
+             other"
+        )
+    } else {
+        format!(
+            "`{a}` and `{b}` overlap at the start by {} of the smaller radius. Contacts hold {} J from the start on, {} of the energy \
          that changed form",
-        percent(overlap.share),
-        number(begin.elastic),
-        percent(share)
-    );
+            percent(overlap.share),
+            number(begin.elastic),
+            percent(share)
+        )
+    };
     let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());
-    (share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy })
+    (unseen || share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy })
 }
 
 /// Drag or a damper takes more than the whole velocity in a step. An explicit method then reverses the velocity and makes it
@@ -36,7 +51,9 @@ pub(super) fn drag(evidence: &Evidence) -> Option<Cause> {
     let card = evidence.card;
     let drag = card.energy.drag + card.energy.accounts.values().sum::<f64>();
     let taken = drag / card.energy_scale;
-    let mad = drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
+    // A run that went wrong makes all accounts NaN, also those that nothing in the scene uses.
+    let there = drag.is_finite() || !card.energy.accounts.is_empty() || resists(evidence.world.resource());
+    let mad = there && drag != 0.0 && (!taken.is_finite() || taken > TAKEN && card.energy_error() > UNACCOUNTED);
     let what = "drag takes more than the whole velocity of a body in a tick, and reverses it".to_owned();
     // The reversed velocities set how far bodies travelled, so the travel does not tell which tick would do.
     let finer = Remedy::Tick(card.tick_for(1.0, 0.1, 1.0));

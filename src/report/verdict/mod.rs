@@ -11,6 +11,7 @@ mod far_places;
 mod near;
 mod overlap;
 mod part;
+mod softness;
 mod ticks;
 mod trajectory_error;
 mod voice;
@@ -53,7 +54,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// All causes, in such an order that the first explains later ones.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 19] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 22] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -62,8 +63,11 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 19] = [
     far_places::rounding,
     energy::not_finite,
     ticks::unseen_swing,
+    ticks::unseen_path,
     energy::unaccounted,
     energy::given_back,
+    trajectory_error::contradicted,
+    trajectory_error::finer_run_failed,
     trajectory_error::tolerance_not_reached,
     overlap::deep,
     ticks::brief_contact,

@@ -2,7 +2,7 @@
 
 use bevy_ecs::prelude::*;
 
-use super::{Cause, Evidence, Trust, VerdictPart};
+use super::{Cause, Evidence, Trust, VerdictPart, softness};
 use jostle_engine::tick::{State, index_of};
 use jostle_language::numbers::number;
 
@@ -12,22 +12,23 @@ const HEAVY: f64 = 100.0;
 /// Contacts are resolved if the critical tick is at least this many ticks.
 const TICKS: f64 = 20.0;
 
-/// An overlap, as a share of a radius, above which a viewer sees that bodies stand in each other.
-const DEEP: f64 = 0.5;
+/// An overlap, as a share of a radius, that is too much for hard bodies. Results differ from theirs by about as much. A reader of
+/// trusted places takes such a share for an error.
+const DEEP: f64 = 0.1;
 
-/// An overlap, as a share of a radius, that hardly changes the meaning of a scene.
-const HARDLY: f64 = 0.1;
+/// An overlap, as a share of a radius, that the verdict does not mention.
+const HARDLY: f64 = 0.05;
 
 /// A contact was pressed in by much of a radius. In an impact the overlap `d = v sqrt(m/k)` falls with the root of the stiffness
 /// `k`, and so does the critical tick.
 pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);
-    let overlap = &card.largest_overlap_share;
-    if overlap.share_of_radius <= DEEP {
+    let overlap = world.resource::<State>().deepest_overlap().in_share;
+    if overlap.share <= DEEP {
         return None;
     }
-    let by = overlap.share_of_radius * 100.0;
-    let deepest = world.resource::<State>().deepest_overlap().in_share.between?;
+    let by = softness::share(overlap.share);
+    let deepest = overlap.between?;
     let bodies = world.resource::<State>().bodies();
     let mass = |entity| {
         let slot = index_of(world, entity)?;
@@ -40,13 +41,14 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let heavy = heavy.filter(|(ratio, ..)| *ratio > HEAVY);
     let what = match heavy {
         Some((ratio, heavier, lighter)) => format!(
-            "`{heavier}` has {ratio:.0} times the mass of `{lighter}`. They overlap by {by:.0} % of a radius at {}",
+            "`{heavier}` has {ratio:.0} times the mass of `{lighter}`. They overlap by {by} of a radius at {}",
             super::at(overlap.time)
         ),
-        None => format!("bodies overlap by {by:.0} % of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
+        None => format!("bodies overlap by {by} of a radius, `{a}` and `{b}` at {}", super::at(overlap.time)),
     };
-    let radius = overlap.meters / overlap.share_of_radius;
-    let softer = overlap.share_of_radius / HARDLY;
+    let what = format!("{what}. {}", crate::capital(&softness::effects(evidence, &overlap)));
+    let radius = overlap.overlap / overlap.share;
+    let softer = overlap.share / HARDLY;
     // A body that runs through another was too fast for its spring. The fastest body sets the stiffness: `m v^2 = k d^2`.
     let speed = card.largest_travel_share * bodies.smallest_radius / card.tick;
     let stiffness = stiffness(world, deepest);
@@ -59,7 +61,8 @@ pub(super) fn deep(evidence: &Evidence) -> Option<Cause> {
     let coarse = card.critical_tick.map_or(1.0, |critical| (card.tick / critical * TICKS).max(1.0));
     let tick = number(card.tick_for(many.sqrt() * coarse, 1.0, 1.0));
     let with = if card.by_ticks() { format!(", with --tick {tick}") } else { String::new() };
-    let remedy = format!("a `stiffness` some {times} times as high{with}: overlaps are then about a tenth of a radius");
+    let remedy =
+        format!("a `stiffness` some {times} times as high{with}: overlaps are then about a twentieth of a radius");
     Some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy: Some(remedy) })
 }
 

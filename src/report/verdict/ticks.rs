@@ -52,6 +52,18 @@ pub(super) fn unseen_swing(evidence: &Evidence) -> Option<Cause> {
     (card.by_ticks() && ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
 }
 
+/// A prescribed motion turns or stops more often than the ticks can sample. Steps that locate events end at the points of paths.
+pub(super) fn unseen_path(evidence: &Evidence) -> Option<Cause> {
+    let (world, card) = (evidence.world, evidence.card);
+    let bodies = world.resource::<State>().bodies();
+    let (body, swing) = bodies.prescribed.fastest_swing().filter(|_| card.by_ticks() && !card.located)?;
+    let (ticks, name) = (swing / card.tick, evidence.name(bodies.entity[body]));
+    let what =
+        format!("the path of `{name}` goes from stop to stop in {ticks:.1} ticks, which are too few to follow it");
+    let remedy = Some(Remedy::Tick(rounded_down(2.0 * swing / GOOD_A_PERIOD)).or_finer());
+    (2.0 * ticks < FEWEST_A_PERIOD).then_some(Cause { trust: Trust::Not, what, remedy })
+}
+
 /// Contacts begin and end within few ticks.
 pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
     let (world, card) = (evidence.world, evidence.card);

@@ -4,7 +4,7 @@
 use super::{Cause, Evidence, Trust, VerdictPart, at, of_the_way};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::State;
-use jostle_language::numbers::number;
+use jostle_language::numbers::{number, rough};
 
 /// A smaller error of places, as a share of how far bodies go, is no cause for doubt.
 const INEXACT: f64 = 1e-2;
@@ -21,6 +21,14 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
 }
 
+/// The scene goes wrong with finer steps. So the steps of this run are too coarse for it, also if its bodies come to
+/// rest.
+pub(super) fn finer_run_failed(evidence: &Evidence) -> Option<Cause> {
+    let failure = evidence.world.get_resource::<EstimatedError>()?.failed.as_ref()?;
+    let what = format!("a run with finer steps goes wrong: {failure}");
+    Some(Cause { trust: Trust::Not, what, remedy: evidence.finer() })
+}
+
 /// The body and the time at which a finer run first goes another way, in words.
 pub(super) fn began(evidence: &Evidence) -> Option<String> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
@@ -31,7 +39,7 @@ pub(super) fn began(evidence: &Evidence) -> Option<String> {
 /// Chaos: any error grows until places have no correct digit.
 pub(super) fn chaos(evidence: &Evidence) -> Option<Cause> {
     let estimated = evidence.world.get_resource::<EstimatedError>()?;
-    let horizon = evidence.card.error.filter(|_| evidence.card.by_ticks())?.horizon?;
+    let horizon = evidence.card.error.filter(|_| !evidence.card.has_trials())?.horizon?;
     // If energy is missing, the tick makes bodies go elsewhere even without chaos.
     if evidence.card.energy_error() > INEXACT {
         return None;
@@ -78,6 +86,18 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     })
 }
 
+/// Runs of the other kind contradict the run: at most one of both is right.
+pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
+    let elsewhere = evidence.world.get_resource::<EstimatedError>()?.elsewhere?;
+    let what = format!(
+        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of both runs is right",
+        number(elsewhere.tick),
+        at(elsewhere.since),
+        rough(elsewhere.distance)
+    );
+    Some(Cause { trust: Trust::ButNot(VerdictPart::Places), what, remedy: None })
+}
+
 /// Stiffer contacts lead elsewhere.
 pub(super) fn soft_contacts(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.world.get_resource::<EstimatedError>()?.model_until?;
@@ -110,11 +130,11 @@ pub(super) fn unknown(evidence: &Evidence) -> Option<Cause> {
         Some(Cause { trust: Trust::ButNot(part), what: what.to_owned(), remedy: remedy.map(str::to_owned) })
     };
     match known.map(|error| error.horizon.filter(|horizon| *horizon < card.time)) {
-        Some(Some(horizon)) if !card.by_ticks() => {
+        Some(Some(horizon)) if card.has_trials() => {
             cause(VerdictPart::PlacesAfter(horizon), "runs with other tolerances go elsewhere from then on", None)
         }
         Some(_) => None,
-        None if card.by_ticks() => {
+        None if !card.has_trials() => {
             let what = "their error is not known. Energy says nothing of a light body among heavy ones";
             cause(VerdictPart::UnknownPlaces, what, Some("`--estimate`"))
         }

@@ -1,7 +1,7 @@
 //! The wording of a verdict that trusts at least a part of a run. Trusted parts come first, then doubted parts, then the remedy.
 //! A doubted part is never among the trusted ones.
 
-use super::{Cause, Evidence, Trust, VerdictPart, at, energy, of_the_way, places};
+use super::{Cause, Evidence, Trust, VerdictPart, at, energy, of_the_way, places, softness};
 use crate::estimate::EstimatedError;
 use jostle_engine::tick::{State, stands};
 use jostle_language::numbers::{percent, rough};
@@ -9,11 +9,16 @@ use jostle_language::numbers::{percent, rough};
 /// More doubts than a reader keeps in mind.
 const MOST: usize = 3;
 
-/// The verdict with these doubts, the gravest first. Without doubts it is praise.
+/// The verdict with these doubts, the gravest first. Without doubts it is praise. It ends with the effects of soft contacts that it
+/// does not doubt.
 pub(super) fn told(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> String {
-    if doubts.is_empty() {
-        return praise(evidence);
-    }
+    let told = if doubts.is_empty() { praise(evidence) } else { doubted(evidence, doubts) };
+    let doubts_model = doubts.iter().any(|(part, _)| *part == VerdictPart::Model);
+    let soft = softness::remark(evidence).filter(|_| !doubts_model);
+    [told].into_iter().chain(soft).collect::<Vec<_>>().join(" ")
+}
+
+fn doubted(evidence: &Evidence, doubts: &[(VerdictPart, Cause)]) -> String {
     let trusted = trusted(evidence, doubts);
     let trusted = match &trusted[..] {
         [] => None,
@@ -85,7 +90,7 @@ fn praise(evidence: &Evidence) -> String {
         return format!("Trust it: all bodies rest. {energy}");
     }
     let places = places(card).unwrap_or_default();
-    if !card.by_ticks() {
+    if card.has_trials() {
         if card.has_tolerance() {
             return format!("Trust it: {places}, as several runs tell.");
         }

@@ -31,7 +31,7 @@ use sweep::Sweep;
 pub use contact_direction::Mover;
 pub use joint_row::{JointRow, JointRowSide};
 pub use moving_frame::MovingFrame;
-pub use rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact};
+pub use rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact, SpringPhase};
 
 /// Sweeps of over-relaxation per tick. The next tick goes on from the forces where this one ended.
 const SWEEPS: usize = 10;

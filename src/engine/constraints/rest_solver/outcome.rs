@@ -5,7 +5,7 @@ use jostle_simd::BLOCK;
 use super::ROUNDING;
 use super::blocks::{Blocks, Rows, Springs};
 use super::contact_direction::{Mover, Row, Sides};
-use super::rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact};
+use super::rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact, SpringPhase};
 
 /// A contact with the forces found for it.
 pub(super) struct Found<'a> {
@@ -47,9 +47,8 @@ impl Found<'_> {
         }
         let none = Springs::default();
         let rolling = self.blocks.rolling.get(block).unwrap_or(&none);
-        let (tangential, slips) =
-            self.friction(&rows.tangent, &sides, (tangential, lane), &contact.tangential, contact.slides.0);
-        let (rolling, rolls) = self.friction(&rows.turn, &sides, (rolling, lane), &contact.rolling, contact.slides.1);
+        let (tangential, slips) = self.friction(&rows.tangent, &sides, (tangential, lane), &contact.tangential);
+        let (rolling, rolls) = self.friction(&rows.turn, &sides, (rolling, lane), &contact.rolling);
         ContactOutcome::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
     }
 
@@ -70,7 +69,6 @@ impl Found<'_> {
         [begin, end]: &[Sides; 2],
         (springs, lane): (&Springs, usize),
         drawn: &CoulombSpring,
-        slides: bool,
     ) -> (FrictionOutcome, bool) {
         let (force, engaged) = (springs.force[lane], springs.is_engaged(lane));
         if engaged && (springs.is_free(lane) || self.stands(row, end)) {
@@ -79,11 +77,17 @@ impl Found<'_> {
         let (before, velocity) = (row.velocity(begin), row.velocity(end));
         let against = engaged && force * velocity < 0.0;
         let stood = before.abs() <= self.noise() * row.mobility * self.dt;
-        let friction = if slides || against && stood {
+        // At rest along the normal friction is dry. A spring that slipped would swing back if the sliding turns round.
+        let turns = self.contact.engaged && drawn.phase == SpringPhase::Slips && drawn.force * velocity > 0.0;
+        // A force along the motion has not converged.
+        let yields = drawn.phase == SpringPhase::Holds && (against || !engaged);
+        let friction = if drawn.phase == SpringPhase::Slides || against && stood {
             FrictionOutcome::Slides(-velocity)
         } else if against && velocity.abs() < before.abs() {
             // It brakes without stopping. So friction that could hold a body catches a sudden motion within some ticks.
             FrictionOutcome::Holds(force)
+        } else if yields || turns {
+            FrictionOutcome::Slides(-velocity)
         } else if self.contact.engaged {
             FrictionOutcome::Stays
         } else if self.contact.parts {

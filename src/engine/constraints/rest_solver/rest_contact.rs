@@ -2,6 +2,20 @@
 
 use glam::DVec2;
 
+/// How a spring with a Coulomb limit acts before the tick.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum SpringPhase {
+    /// It follows the motion, drawn by less than its limit.
+    #[default]
+    Follows,
+    /// It follows the motion at its limit.
+    Slips,
+    /// The force is the one that held the contact. The spring is not drawn to it.
+    Holds,
+    /// The contact slides under a force to which the spring is not drawn.
+    Slides,
+}
+
 /// A spring with a Coulomb limit: a force in N, or a torque in N m with lengths for coefficients.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct CoulombSpring {
@@ -13,6 +27,8 @@ pub struct CoulombSpring {
     pub slips: f64,
     /// The present force.
     pub force: f64,
+    /// Its phase.
+    pub phase: SpringPhase,
 }
 
 impl CoulombSpring {
@@ -42,8 +58,6 @@ pub struct RestContact {
     pub engaged: bool,
     /// Whether the contact parts.
     pub parts: bool,
-    /// Whether the contact slides and rolls without its springs, under the dynamic coefficient.
-    pub slides: (bool, bool),
     /// The tangential spring; its force acts along minus the tangent on B.
     pub tangential: CoulombSpring,
     /// The rolling spring; its torque acts against B's turn.
@@ -55,8 +69,8 @@ pub struct RestContact {
 pub enum FrictionOutcome {
     /// It holds with this force, or brakes with its greatest force.
     Holds(f64),
-    /// It was at rest and could not bear the load, or slid already without its spring. It slides against the motion with the dynamic
-    /// coefficient, and its force has the sign of this number.
+    /// It was at rest and could not bear the load, or slid already without its spring, or was turned round. It slides against the
+    /// motion with the dynamic coefficient, and its force has the sign of this number.
     Slides(f64),
     /// The contact begins to rest, perhaps for the one tick in which a collision turns. Its spring follows the motion. A spring that
     /// gives way slides on until the force of the next tick is known.

@@ -61,9 +61,11 @@ pub struct PenaltyContacts {
     pub(super) told: Told,
     /// Energy in J of the tangential springs before modes were switched.
     pub(super) held_before: Option<f64>,
-    /// The tangential and the rolling spring of each contact at the beginning of an event. They are those that stick,
-    /// and those that slip beside a normal force that is not held.
+    /// The tangential and the rolling spring of each contact at the beginning of an event. They are those that hold or
+    /// stick, and those that slip beside a normal force that is not held.
     pub(super) before: Vec<[Option<Slider>; 2]>,
+    /// Contacts whose friction stopped sliding at the last event, and is held for a first try.
+    pub(super) stopped: Vec<u32>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
     /// Contacts that begin in equilibrium, until the first evaluation.
@@ -91,6 +93,7 @@ impl Default for PenaltyContacts {
             told: Told::default(),
             held_before: None,
             before: Vec::new(),
+            stopped: Vec::new(),
             slid: 0.0,
             begun: Vec::new(),
         }

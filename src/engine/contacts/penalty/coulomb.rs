@@ -10,11 +10,11 @@
 //! it ([`crate::constraints::rest_solver`]).
 
 use super::switching::Base;
-use crate::constraints::rest_solver::{CoulombSpring, FrictionOutcome};
+use crate::constraints::rest_solver::{CoulombSpring, FrictionOutcome, SpringPhase};
 use serde::{Deserialize, Serialize};
 
 /// A share of a force or of a velocity that counts as rounding.
-const ROUNDING: f64 = 1e-12;
+pub(super) const ROUNDING: f64 = 1e-12;
 
 /// A spring that begins to stick has the force with which it slipped. The normal force of the rows then differs by at
 /// most this share.
@@ -82,15 +82,21 @@ impl Slider {
     }
 
     /// Whether it slides with a force that its spring is not drawn to.
-    pub(super) fn slides_without_spring(&self, law: &SliderLaw) -> bool {
-        self.grip == Grip::Slide && law.stiffness * self.elongation != self.held
+    fn slides_without_spring(&self, law: &SliderLaw) -> bool {
+        self.grip == Grip::Slide && (law.stiffness * self.elongation - self.held).abs() > ROUNDING * self.held.abs()
     }
 
     /// The spring as the search for rest sees it.
     pub(super) fn drawn(&self, law: &SliderLaw) -> CoulombSpring {
         let SliderLaw { friction_static: limit, friction_dynamic: slips, .. } = *law;
         let gives = if self.grip == Grip::Slip { slips } else { limit };
-        CoulombSpring { limit, gives, slips, force: self.force(law) }
+        let phase = match self.grip {
+            Grip::Hold => SpringPhase::Holds,
+            Grip::Slide if self.slides_without_spring(law) => SpringPhase::Slides,
+            Grip::Slip => SpringPhase::Slips,
+            Grip::Stick | Grip::Slide => SpringPhase::Follows,
+        };
+        CoulombSpring { limit, gives, slips, force: self.force(law), phase }
     }
 
     /// Elastic energy in J.
@@ -106,7 +112,7 @@ impl Slider {
     #[inline(always)]
     pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64) -> f64 {
         if matches!(self.grip, Grip::Hold | Grip::Slide) {
-            return self.held * displacement.unwrap_or(0.0);
+            return self.held * displacement.unwrap_or(0.0) - self.draw(law, displacement);
         }
         let before = self.elongation;
         let trial = before + displacement.unwrap_or(0.0);
@@ -121,6 +127,16 @@ impl Slider {
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }
 
+    /// A slide draws its spring on the way, up to the force with which it slides. Returns the energy in J that the spring takes
+    /// up. It comes from the work of that force, which is never less.
+    fn draw(&mut self, law: &SliderLaw, displacement: Option<f64>) -> f64 {
+        let Some(displacement) = displacement.filter(|_| self.slides_without_spring(law)) else { return 0.0 };
+        let before = self.energy(law);
+        let (trial, most) = (self.elongation + displacement, self.held.abs() / law.stiffness);
+        self.elongation = if trial.abs() > most { most.copysign(trial) } else { trial };
+        self.energy(law) - before
+    }
+
     /// Makes a spring stick that slipped in the state `before`, if its limit has jumped beyond that. Only the motion of
     /// its ends stretches it farther. They slide with the relative velocity `velocity`. Returns whether it did.
     pub(super) fn settle_jump(&mut self, law: &SliderLaw, before: Option<Self>, velocity: f64) -> bool {
@@ -132,6 +148,11 @@ impl Slider {
             *self = Self { grip: Grip::Stick, elongation: drawn, held: 0.0_f64.copysign(velocity) };
         }
         short
+    }
+
+    /// Whether it held `before` and slides now. Forces have chosen its direction, and its velocity is a rounding remainder.
+    pub(super) fn yielded(&self, before: Option<Self>) -> bool {
+        self.grip == Grip::Slide && before.is_some_and(|before| before.grip == Grip::Hold)
     }
 
     /// Lets a spring swing back that stuck `before`, and was tried as held at its turning point. Returns whether it

@@ -15,7 +15,7 @@ use super::normal::Mode;
 use super::rolling::RollingContacts;
 use super::switching::{Told, View, What};
 use crate::contacts::{CandidatePairs, Probe, Surface, SurfacePair};
-use crate::tick::Indicator;
+use crate::tick::{Bend, Indicator};
 use crate::world::{Bodies, PackedHull};
 
 /// Between ticks, or where states follow one another, the nearest feature counts.
@@ -104,7 +104,7 @@ impl View<'_> {
         let borders = seen.shape.borders(feature, seen.place, seen.velocity).into_iter().flatten();
         for (second, (value, slope)) in [false, true].into_iter().zip(borders) {
             what.push((index as u32, What::Border(second)));
-            told.push(Indicator { value, slope, rounding, ..Indicator::default() });
+            told.push(Indicator { rounding, ..Indicator::new(value, slope, Bend::Fitted) });
         }
     }
 }

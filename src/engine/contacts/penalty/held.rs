@@ -76,6 +76,7 @@ impl Held {
             LostTo::Inelasticity,
             bodies,
         );
+        row.pushes = 1.0;
         let [a, b] = &mut row.sides;
         for (side, sign) in [(a, 1.0), (b, -1.0)] {
             side.iter_mut().for_each(|side| side.torque += sign * twist);

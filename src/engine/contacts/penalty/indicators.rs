@@ -8,7 +8,7 @@ use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{View, What};
 use crate::contacts::geometry::PairGeometry;
-use crate::tick::Indicator;
+use crate::tick::{Bend, Indicator};
 use crate::world::Bodies;
 
 /// The weight of a turn of the line of centres against a swing. A body that passes another one turns it by half a turn.
@@ -64,8 +64,8 @@ impl View<'_> {
             let (contact, law, roller) = self.whole(index, &geometry);
             if contact.mode == Mode::Open {
                 what.push((index as u32, What::Touch));
-                let (value, slope, bend) = (-geometry.overlap, geometry.parting(), geometry.bend(bodies));
-                told.push(Indicator { value, slope, bend, ..Indicator::default() });
+                let bend = Bend::AtMost(geometry.bend(bodies));
+                told.push(Indicator::new(-geometry.overlap, geometry.parting(), bend));
                 continue;
             }
             let change = geometry.change(law, bodies);
@@ -78,7 +78,7 @@ impl View<'_> {
             let turns = if contact.mode == Mode::Hold { 0.0 } else { TURNS * geometry.turns() };
             let known = |value: f64, slope: f64| {
                 let swings = pressure.swings.sqrt().max(turns);
-                Indicator { value, slope, swings, ..Indicator::default() }
+                Indicator { swings, ..Indicator::new(value, slope, Bend::Fitted) }
             };
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
@@ -153,7 +153,7 @@ pub(super) enum PhaseEnd {
     Stops,
 }
 
-/// A share of a velocity that counts as rounding.
+/// A share of a velocity or force that counts as rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
 /// The end of the current phase of a spring with a Coulomb limit, and its indicators. `held`: its elongation follows no
@@ -169,9 +169,10 @@ pub(super) fn tell_slider(
     // The amplitude of the second rate in a swing with this angular frequency.
     let stiffness = if slider.grip == Grip::Stick { law.stiffness } else { 0.0 };
     let squared = pressure.swings + stiffness * motion.mobility;
+    // The rates of a force that rows hold are unknown.
     let bend = |slope: f64, second_rate: f64| {
         let bend = (second_rate * second_rate + squared * slope * slope).sqrt();
-        if bend.is_finite() { bend } else { 0.0 }
+        if bend.is_finite() { Bend::AtMost(bend) } else { Bend::Fitted }
     };
     match slider.grip {
         Grip::Slide => {
@@ -179,13 +180,13 @@ pub(super) fn tell_slider(
             let (rate, second) = if held { (0.0, 0.0) } else { (pressure.rate, pressure.second_rate) };
             let (slip, slope) = (motion.velocity - follows * rate, motion.rate - follows * second);
             let (value, bend) = (sign * slip, bend(slope, squared * slip));
-            say(PhaseEnd::Stops, Indicator { value, slope: sign * slope, bend, rounding, ..Indicator::default() });
+            say(PhaseEnd::Stops, Indicator { rounding, ..Indicator::new(value, sign * slope, bend) });
         }
         grip => {
             // At rest along the normal friction too may be any force within its cone once the sides stop.
             if grip == Grip::Stick && mode == Mode::Hold {
                 let value = sign * motion.velocity;
-                say(PhaseEnd::Stops, Indicator { value, slope: UNKNOWN, rounding, ..Indicator::default() });
+                say(PhaseEnd::Stops, Indicator { rounding, ..Indicator::of_value(value, Bend::Fitted) });
             }
             let (known, swings) = if grip == Grip::Hold { (UNKNOWN, 0.0) } else { (law.stiffness, squared.sqrt()) };
             let force = [slider.force(law), known * motion.velocity, known * motion.rate];
@@ -193,7 +194,9 @@ pub(super) fn tell_slider(
             for (positive, sign) in [(true, -1.0), (false, 1.0)] {
                 let [value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
                 let bend = bend(slope, second_rate);
-                say(PhaseEnd::Gives(positive), Indicator { value, slope, bend, swings, ..Indicator::default() });
+                // A spring that stopped has the force of the cone, and at first the same rate.
+                let rounding = ROUNDING * (force[0].abs() + limit[0].abs());
+                say(PhaseEnd::Gives(positive), Indicator { rounding, swings, ..Indicator::new(value, slope, bend) });
             }
         }
     }

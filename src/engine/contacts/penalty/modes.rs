@@ -185,10 +185,10 @@ impl Choice<'_> {
         (contact, law)
     }
 
-    /// The rolling spring of a contact, and whether the contact slides without it, in scenes that have rolling friction.
-    fn rolls(&self, case: &ContactSides, pair: &PairLaw) -> Option<(CoulombSpring, bool)> {
+    /// The rolling spring of a contact, in scenes that have rolling friction.
+    fn rolls(&self, case: &ContactSides, pair: &PairLaw) -> Option<CoulombSpring> {
         let (slider, law) = self.slider(case, pair)?;
-        Some((slider.drawn(&law), slider.slides_without_spring(&law)))
+        Some(slider.drawn(&law))
     }
 
     /// The rolling spring of a contact as it is, with its law, in scenes that have rolling friction.
@@ -313,7 +313,7 @@ impl Choice<'_> {
     #[inline]
     fn seen<N: NormalForce>(&self, case: &ContactSides, ends: (usize, usize)) -> RestContact {
         let (contact, law) = self.known(case);
-        let (rolling, rolls) = self.rolls(case, law).unwrap_or_default();
+        let rolling = self.rolls(case, law).unwrap_or_default();
         let place = self.sink.bodies.position[case.b.body] + case.b.arm;
         RestContact {
             ends,
@@ -324,7 +324,6 @@ impl Choice<'_> {
             noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
             engaged: contact.mode == Mode::Hold,
             parts: contact.mode == Mode::Unloading,
-            slides: (contact.tangential.slides_without_spring(&law.tangential()), rolls),
             tangential: contact.tangential.drawn(&law.tangential()),
             rolling,
         }
@@ -340,6 +339,14 @@ impl Choice<'_> {
         ledger: &mut Ledger,
         found: &mut Found,
     ) {
+        // Under one normal force at rest, friction too has one force: that of its spring. Only rest that lasts replaces it.
+        if !N::SET_VALUED && members.list.iter().any(|&body| self.sink.bodies.prescribed.leads_on(body)) {
+            for case in cases {
+                let approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
+                self.choose_by_velocity::<N>(case, approach);
+            }
+            return;
+        }
         island.clear();
         let bodies = &*self.sink.bodies;
         island.level = bodies.level;

@@ -186,7 +186,7 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &Pa
 }
 
 /// The preferred load of a rolling spring on side B, if the spring of the contact pulls with `pull` newtons.
-fn share(slider: &Slider, law: &SliderLaw, pull: f64) -> Share {
+pub(super) fn share(slider: &Slider, law: &SliderLaw, pull: f64) -> Share {
     let measure = (law.friction_static * pull).max(f64::MIN_POSITIVE);
     Share { natural: -law.stiffness * slider.elongation, measure }
 }

@@ -32,14 +32,44 @@ impl View<'_> {
             let slid = self.close_slides();
             self.contacts.held_before = Some(self.stored(|_| true) + slid);
             self.contacts.before.clear();
+            self.contacts.stopped.clear();
         }
-        let corrected = self.settle_normals::<N>()
+        let corrected = self.settle_stopped::<N>()
+            || self.settle_normals::<N>()
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)
             || self.settle_friction::<N>(|grip| grip == Grip::Hold);
         if !corrected {
             self.contacts.slid = self.sliding_energy();
         }
         corrected
+    }
+
+    /// Lets friction slide on that was tried as held beyond its cone, if a normal force leaves its bounds. A friction without
+    /// a bound makes normal forces that the real one does not. Says whether there was any.
+    fn settle_stopped<N: NormalForce>(&mut self) -> bool {
+        if self.contacts.stopped.is_empty() || !(0..self.len()).any(|index| self.is_out_of_band::<N>(index)) {
+            return false;
+        }
+        let mut corrected = false;
+        let stopped = std::mem::take(&mut self.contacts.stopped);
+        for &index in &stopped {
+            let geometry = self.look(index as usize);
+            let (mut contact, law, _) = self.whole(index as usize, &geometry);
+            if contact.tangential.grip == Grip::Hold {
+                let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+                let base = Base { force: contact.normal_force.min(greatest).max(least), rate: 0.0 };
+                corrected |= contact.tangential.settle_force(&law.tangential(), base, None);
+            }
+        }
+        self.contacts.stopped = stopped;
+        corrected
+    }
+
+    /// Whether a normal force that is held has left its bounds.
+    fn is_out_of_band<N: NormalForce>(&mut self, index: usize) -> bool {
+        let (contact, law) = self.contact(index);
+        let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+        contact.mode == Mode::Hold && (contact.normal_force < least || contact.normal_force > greatest)
     }
 
     /// Lets go of contacts that are held by forces out of their bounds, and of those that no force holds. Says whether there were any.
@@ -108,13 +138,14 @@ impl View<'_> {
                 // A spring that gives has its new elongation once it was evaluated.
                 corrected |= slider.settle_jump(&law.tangential(), before[0], motion.0)
                     || slider.settle_force(&law.tangential(), base, before[0])
-                    || !law.exact && slider.settle_motion(&law.tangential(), base, motion);
+                    || !(law.exact || slider.yielded(before[0]))
+                        && slider.settle_motion(&law.tangential(), base, motion);
             }
             if let Some((slider, law)) = roller.filter(|(slider, _)| which(slider.grip)) {
                 let motion = (geometry.turning(), geometry.turning_speed());
                 corrected |= slider.settle_jump(&law, before[1], motion.0)
                     || slider.settle_force(&law, base, before[1])
-                    || slider.settle_motion(&law, base, motion);
+                    || !slider.yielded(before[1]) && slider.settle_motion(&law, base, motion);
             }
         }
         self.contacts.before = springs;

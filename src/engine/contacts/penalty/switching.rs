@@ -17,11 +17,12 @@
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
-use super::coulomb::{Grip, Slider, SliderLaw};
+use super::coulomb::{Grip, ROUNDING, Slider, SliderLaw};
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
+use crate::constraints::islands::IslandLink;
 use crate::constraints::{Booking, LostTo, Rows};
 use crate::contacts::Touches;
 use crate::contacts::geometry::{PairGeometry, SideA};
@@ -160,6 +161,7 @@ impl View<'_> {
         let slid = self.close_slides();
         // Energy that springs held before and lose by the change is lost. It is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
+        self.stop_together();
         self.note_springs();
         for &index in fired {
             let (pair, what) = self.contacts.told[index];
@@ -178,7 +180,69 @@ impl View<'_> {
         ledger.friction.add(slid);
     }
 
-    /// Notes the springs that stick, or slip beside a normal force that is not held.
+    /// Adds rows for those that stop at this event and hold without a spring. So [`stand_still`] takes away the velocity that the
+    /// location of the event left. If they yield again, forces decide the direction, and not the sign of that remainder.
+    pub(super) fn hold_stopped(&mut self, fired: &[usize], rows: &mut Rows) {
+        let mut held = std::mem::take(&mut self.contacts.held);
+        let mut stopped = std::mem::take(&mut self.contacts.stopped);
+        stopped.clear();
+        for &index in fired {
+            let (pair, what) = self.contacts.told[index];
+            if !matches!(what, What::Stop | What::RollingStop) {
+                continue;
+            }
+            let (geometry, bodies) = (self.look(pair as usize), self.bodies);
+            let (contact, law, roller) = self.whole(pair as usize, &geometry);
+            match (what, roller) {
+                // Friction that never has a spring keeps no remainder that one could draw.
+                (What::Stop, _) if contact.holds_rigidly(law) && !law.exact => {
+                    held.add_tangent(rows, &geometry, law, &contact, bodies);
+                    stopped.push(pair);
+                }
+                (What::RollingStop, Some((slider, rolling_law))) if contact.mode == Mode::Hold => {
+                    let pull = law.stiffness * geometry.overlap;
+                    held.add_rolling(rows, &geometry, rolling_stages::share(slider, &rolling_law, pull), bodies);
+                }
+                _ => {}
+            }
+        }
+        (self.contacts.held, self.contacts.stopped) = (held, stopped);
+    }
+
+    /// Contacts beside one that stopped stop with it, if they slide without a spring and have no velocity left. Rounding decides
+    /// which of them the event names.
+    fn stop_together(&mut self) {
+        let mut stopped = std::mem::take(&mut self.contacts.stopped);
+        let named = stopped.len();
+        for &index in &stopped {
+            self.contact(index as usize).0.tangential.grip = Grip::Hold;
+        }
+        for index in 0..if named == 0 { 0 } else { self.len() } {
+            let geometry = self.look(index);
+            let (contact, law, _) = self.whole(index, &geometry);
+            let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
+            let stands = geometry.sliding(law.shares()).abs() <= ROUNDING * geometry.speed(law.shares());
+            drop(contact);
+            let beside = |&other: &u32| self.shares_body(index, other as usize);
+            if slides && stands && !stopped.contains(&(index as u32)) && stopped[..named].iter().any(beside) {
+                self.contact(index).0.tangential.grip = Grip::Hold;
+                stopped.push(index as u32);
+            }
+        }
+        self.contacts.stopped = stopped;
+    }
+
+    /// Whether two contacts are of one body that moves by forces.
+    fn shares_body(&self, one: usize, other: usize) -> bool {
+        let of = |index: usize| {
+            let pair = self.look(index).pair;
+            [Some(pair.b.body), pair.other_body()].map(|body| body.filter(|&body| self.bodies.dynamic[body]))
+        };
+        let (one, other) = (of(one), of(other));
+        one.iter().flatten().any(|body| other.contains(&Some(*body)))
+    }
+
+    /// Notes the springs that hold or stick, or slip beside a normal force that is not held.
     fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
@@ -186,7 +250,7 @@ impl View<'_> {
             let geometry = self.look(index);
             let (contact, law, roller) = self.whole(index, &geometry);
             let noted = |slider: &Slider| match (contact.mode, slider.grip) {
-                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Hold | Grip::Slip) => None,
+                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Slip) => None,
                 _ => Some(*slider),
             };
             let tangential = if law.exact { None } else { noted(&contact.tangential) };
@@ -398,8 +462,7 @@ impl Contact {
                 self.slide(law, self.normal_force);
             }
             What::Stop if self.mode != Mode::Open => {
-                let held = law.exact || self.mode == Mode::Hold;
-                self.tangential.grip = if held { Grip::Hold } else { Grip::Stick };
+                self.tangential.grip = if self.holds_rigidly(law) { Grip::Hold } else { Grip::Stick };
             }
             What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop | What::Border(_) => {}
         }
@@ -415,6 +478,11 @@ impl Contact {
         if slider.grip == Grip::Stick {
             slider.held = 0.0_f64.copysign(geometry.sliding(law.shares()));
         }
+    }
+
+    /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
+    fn holds_rigidly(&self, law: &PairLaw) -> bool {
+        law.exact || self.mode == Mode::Hold
     }
 
     /// While it slips: the force along the surface under a normal force, in the direction it has.

@@ -87,6 +87,7 @@ impl<N: NormalForce> Events for Contacts<N> {
     fn switch(&mut self, state: &mut State, fired: &[usize]) {
         let State { bodies, ledger, rows, clock, touches, pairs: Some(pairs), .. } = state else { return };
         let PenaltyState { contacts, rolling } = &mut self.own;
+        View { bodies, pairs, contacts, rolling: rolling.as_mut() }.hold_stopped(fired, rows);
         switching::stand_still((bodies, ledger, rows), contacts, clock.dt);
         let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
         view.switch::<N>(fired, ledger, touches.as_mut());

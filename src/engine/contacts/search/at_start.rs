@@ -22,6 +22,8 @@ const MOST_LOOKS: usize = 1 << 30;
 /// The deepest overlap before the first tick, if it deserves a report.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
 pub struct OverlapAtStart {
+    /// In metres.
+    pub overlap: f64,
     /// As a share of the smaller radius.
     pub share: f64,
     /// The two bodies, or the body and the wall.
@@ -135,7 +137,7 @@ pub(super) fn note_overlaps(world: &mut World) {
         Pair::Bodies(a, b) => [bodies.entity[a as usize], bodies.entity[b as usize]],
         Pair::Wall(body, wall) => [bodies.entity[body as usize], bodies.walls[wall as usize].entity],
     };
-    let begin = OverlapAtStart { share, between: (a, b) };
+    let begin = OverlapAtStart { overlap, share, between: (a, b) };
     let [a, b] = [a, b].map(|entity| world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string));
     let (overlap, percent) = (number(overlap), number((share * 1000.0).round() / 10.0));
     let who = match pairs.len() {

@@ -20,9 +20,6 @@ pub(super) enum Ladder {
     Ticks,
 }
 
-/// The power of the step by which errors of the methods that estimate them fall.
-const ORDER: f64 = 8.0;
-
 /// The steps between two readings of a trial. The steps are those that suit the fastest contact or spring: eight
 /// readings to a contact.
 const STEPS_BETWEEN_LOOKS: u32 = 5;
@@ -70,8 +67,9 @@ pub(super) struct Trials<'a> {
     coarsest: f64,
     /// The number of trials so far.
     pub count: u32,
-    /// The number of times that forces were evaluated in all of them.
+    /// The number of times that forces were evaluated in all of them, and the work of that.
     pub evaluations: u64,
+    pub work: f64,
     /// The greatest distance and speed of bodies, from the last trial.
     sizes: (f64, f64),
 }
@@ -104,6 +102,7 @@ impl<'a> Trials<'a> {
             coarsest: 0.0,
             count: 0,
             evaluations: 0,
+            work: 0.0,
             sizes: (0.0, 0.0),
         }
     }
@@ -129,14 +128,11 @@ impl<'a> Trials<'a> {
         match self.ladder {
             Ladder::Allowed => {
                 if let StepPace::Allowed(allowance) = &mut plan.pace {
-                    allowance.share = fineness;
-                    // If no error bounds a step, two trials would make the same steps, and would not differ.
-                    let finer = (self.coarsest.max(fineness) / fineness).powf(1.0 / ORDER);
-                    allowance.longest /= finer;
-                    if self.by_ticks && finer > 1.0 {
-                        plan.tick /= finer.ceil();
-                        // A step from an event to the end of a tick would be the same in both.
-                        allowance.longest = allowance.longest.min(0.5 * plan.tick);
+                    // Steps that no error bounds would be the same in two trials, which would not differ.
+                    let first = Allowance { share: self.coarsest.max(fineness), ..*allowance };
+                    *allowance = first.with_share(fineness);
+                    if self.by_ticks {
+                        plan.tick /= allowance.shorter.ceil();
                     }
                 }
             }
@@ -179,6 +175,7 @@ impl<'a> Trials<'a> {
         let trajectory = Trajectory::record(&mut simulation, per_moment, MOST_OF_A_RUN)
             .map_err(|evaluations| simulation.refused(endless(simulation.duration(), evaluations)))?;
         self.evaluations += trajectory.evaluations;
+        self.work += trajectory.work;
         self.cut = hastened && trajectory.failure.is_some();
         if trajectory.failure.is_none() {
             let (distance, speed) = trajectory.sizes();

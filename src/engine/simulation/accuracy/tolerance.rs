@@ -2,21 +2,29 @@
 //!
 //! Two runs differ by the error of the coarser one, unless their errors are equal. So a fineness is accepted only after
 //! a finer trial has differed by no more than the allowed error. Otherwise the power by which errors fall determines
-//! the necessary fineness. It is accepted only if a third trial differs by the predicted amount. Errors are those of
-//! the whole run, not of a step. The growth of the error of a step in a scene is measured, not guessed.
+//! the fineness of the next trial. Errors are those of the whole run, not of a step. The growth of the error of a step
+//! in a scene is measured, not guessed.
+//!
+//! Errors of equal steps follow the power law of their method, once three trials have shown it. Then a fineness that it
+//! foretells is accepted too. Errors of steps whose length follows from their error obey no such law. They add up with
+//! changing signs, so that the sum for one allowance says little of the sum for another. They are measured only.
 
 use super::fineness::{Ladder, Trials};
 use super::reference::TELLS_NOTHING;
 use super::trajectory::{Trajectory, TrajectoryDistance};
+use crate::integrate::ORDER;
 use crate::scene::SceneErrors;
 use crate::simulation::Plan;
 use crate::simulation::error::{ErrorEstimate, ErrorParts};
 use jostle_language::numbers::{number, rough};
 
-/// A trial is good if a finer one differs from it by at most this share of the tolerance. The finer one is good if they
-/// differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally large and alike.
+/// A trial is good if a finer one differs from it by at most this share of the tolerance. If errors follow a law, the
+/// finer one is good if they differ by at most `BETWEEN` tolerances. Its error exceeds that only if both errors are equally
+/// large and alike.
 const MEASURED: f64 = 0.7;
 const BETWEEN: f64 = 2.5;
+/// The same as `MEASURED`, where the finer one allows a tenth of the error and so errs by a tenth.
+const OF_A_TENTH: f64 = 0.9;
 /// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
 /// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
@@ -28,8 +36,12 @@ const SCATTER: f64 = 3.0;
 const FIRST: f64 = 0.1;
 /// The greatest number of trials if the error does not fall as expected.
 const MOST_TRIALS: u32 = 9;
-/// Evaluations of all forces after which no further trial is made: some ten seconds of a small scene.
-const MOST_EVALUATIONS: u64 = 30_000_000;
+/// The work of all trials, in evaluations of the forces of the smallest scene: about half a minute. A trial that would
+/// exceed it is not begun.
+const MOST_WORK: f64 = 6e7;
+
+/// Trials with located events after one with too many, before all go by whole ticks.
+const MORE_LOCATED: usize = 2;
 
 /// A scene loses digits if its distance from the origin exceeds the ways of its bodies by this factor.
 const FAR: f64 = 10.0;
@@ -55,6 +67,12 @@ struct Climb {
     finest: f64,
     /// The greatest factor by which the final run is finer than the last trial.
     trusted: f64,
+    /// A trial is good if a finer one differs by at most this share of the tolerance.
+    measured: f64,
+    /// Whether errors follow a power law, so that those of a fineness without a finer trial are known.
+    lawful: bool,
+    /// The work rises with this power of one over the fineness.
+    cost: f64,
 }
 
 impl Climb {
@@ -68,6 +86,9 @@ impl Climb {
             wary: true,
             finest: steps / 4096.0,
             trusted: 0.25,
+            measured: MEASURED,
+            lawful: true,
+            cost: 1.0,
         };
         match trials.ladder {
             Ladder::Allowed => Self {
@@ -78,6 +99,9 @@ impl Climb {
                 wary: false,
                 finest: 1e-14,
                 trusted: 1.0,
+                measured: OF_A_TENTH,
+                lawful: false,
+                cost: 1.0 / ORDER,
             },
             Ladder::Steps => Self { power: f64::from(trials.order), wary: false, ..even },
             Ladder::Ticks => even,
@@ -86,6 +110,16 @@ impl Climb {
 }
 
 impl Climb {
+    /// The fineness of the next trial. It is at least `least` times that of the last one, which had `next` and took the
+    /// work `taken`. The error asks for `wanted`, and `sure` says that two pairs of trials agree in that. `None` if no
+    /// finer trial fits into the work that is left.
+    fn then(&self, (next, least): (f64, f64), (wanted, sure): (f64, bool), (taken, left): (f64, f64)) -> Option<f64> {
+        let affordable = next * (taken / left.max(f64::MIN_POSITIVE)).powf(1.0 / self.cost);
+        let (finer, needed) = (next * self.finer, wanted.max(self.finest).min(next * self.finer));
+        let fits = affordable <= if sure { needed } else { finer };
+        fits.then(|| self.down_to(wanted.clamp(next * least, finer).max(affordable)))
+    }
+
     /// The fineness of a trial. Two trials that are finest to rounding would not differ, so one near the finest is that.
     fn down_to(&self, fineness: f64) -> f64 {
         if fineness < 2.0 * self.finest { self.finest } else { fineness }
@@ -96,7 +130,7 @@ impl Climb {
 pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     trials.hasty = true;
     let plan = climb(tolerance, trials)?;
-    if plan.warning.is_none() || !trials.cut || trials.evaluations > MOST_EVALUATIONS {
+    if plan.warning.is_none() || !trials.cut || trials.work > MOST_WORK {
         return Ok(plan);
     }
     (trials.hasty, trials.count) = (false, 0);
@@ -106,6 +140,13 @@ pub(super) fn find(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErr
 fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     let mut climb = Climb::of(trials, tolerance);
     let mut coarse = trials.run(climb.first, "a coarse run", |_| {})?;
+    for _ in 0..MORE_LOCATED {
+        // Rounding may decide whether events crowd in one tick. Then they do not with other steps.
+        if coarse.overloaded && trials.ladder == Ladder::Allowed {
+            climb.first *= climb.finer;
+            coarse = trials.run(climb.first, "a coarse run with other steps", |_| {})?;
+        }
+    }
     if coarse.overloaded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
         climb = Climb::of(trials, tolerance);
         coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
@@ -140,14 +181,19 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let left = 1.0 - (next / fineness).powf(climb.power);
         let foretold_at = |then: f64| (then / fineness).powf(climb.power) / left;
         // An error that rounding bounds does not fall with fineness.
-        let share_at = |then: f64| if fine.bounded { foretold_at(then).max(1.0) } else { foretold_at(then) };
+        let share_at = |then: f64| match () {
+            () if fine.bounded || !climb.lawful && then < fineness => foretold_at(then).max(1.0),
+            () => foretold_at(then),
+        };
         let wanted = fineness * (FORETOLD * tolerance * left / difference).powf(1.0 / climb.power);
         let alike = coarse.bounded && fine.bounded;
         let chosen = match difference {
             _ if alike => None,
             // Ticks with too many events continued by another method, and two runs of it make the same errors.
             _ if coarse.overloaded || fine.overloaded => None,
-            _ if difference <= MEASURED * tolerance => Some(fineness),
+            _ if difference <= climb.measured * tolerance => Some(fineness),
+            // Without a law only a finer trial tells the error of the next one, and two trials show no law.
+            _ if !climb.lawful || before.is_none() => None,
             _ if difference <= BETWEEN * tolerance => Some(next),
             _ if confirmed && wanted >= (next * climb.trusted).max(climb.finest) => Some(wanted.min(next)),
             _ => None,
@@ -155,15 +201,16 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         if let Some(chosen) = chosen {
             return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
         }
-        let dear = trials.evaluations > MOST_EVALUATIONS;
-        if alike || dear || next <= climb.finest || trials.count >= MOST_TRIALS {
-            let ends = Ends { fineness: next, finest: next <= climb.finest };
-            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
-        }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
+        let (sure, left) = (before.is_some(), MOST_WORK - trials.work);
+        let then = climb.then((next, least), (wanted, sure), (fine.work, left));
+        let ended = alike || next <= climb.finest || trials.count >= MOST_TRIALS;
+        let Some(then) = then.filter(|_| !ended) else {
+            let ends = Ends { fineness: next, finest: next <= climb.finest, dear: then.is_none() };
+            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
+        };
         before = Some((fineness, difference, difference * share_at(next)));
-        (fineness, coarse) = (next, fine);
-        next = climb.down_to(wanted.clamp(next * least, next * climb.finer));
+        (fineness, coarse, next) = (next, fine, then);
     }
 }
 
@@ -210,6 +257,8 @@ struct Ends {
     fineness: f64,
     /// Whether the engine takes no finer steps.
     finest: bool,
+    /// Whether a finer trial would take too many evaluations.
+    dear: bool,
 }
 
 /// No run was fine enough. The finest is taken, and the card gives the time from which it is wrong.
@@ -225,7 +274,7 @@ fn missed(
     let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
     let why = match lost {
         _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
-        _ if trials.evaluations > MOST_EVALUATIONS => {
+        _ if ends.dear && !ends.finest => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
         _ if coarse.overloaded || fine.overloaded => {

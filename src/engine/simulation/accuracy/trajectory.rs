@@ -4,7 +4,7 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use crate::Simulation;
-use crate::tick::{Clock, Failure, State, add_observer_of_ticks, look_at_ticks};
+use crate::tick::{Clock, Failure, State, add_observer, look_at_ticks, look_inside, work_of_an_evaluation};
 use crate::world::Bodies;
 
 /// Moments at which runs are compared, at most.
@@ -60,6 +60,8 @@ pub struct Trajectory {
     pub failure: Option<Failure>,
     /// The number of times that forces were evaluated.
     pub evaluations: u64,
+    /// The work of that, in the unit of [`work_of_an_evaluation`].
+    pub work: f64,
     /// Whether more happened in a tick than is located.
     pub overloaded: bool,
     /// Whether rounding of places bounds its steps: two such runs are alike, whatever they are allowed.
@@ -175,6 +177,8 @@ impl Trajectory {
     fn seen(simulation: &mut Simulation, stride: u64, run: impl FnOnce(&mut Simulation) -> Option<Failure>) -> Self {
         let end = simulation.ticks();
         let last = (!end.is_multiple_of(stride)).then_some(end);
+        // The run is made for its motion. Its sensors are not read.
+        look_inside(simulation.world_mut(), false);
         Self::watch(simulation, (1..=end / stride).map(|index| index * stride).chain(last).collect());
         let failure = run(simulation);
         Self::watched(simulation, failure)
@@ -191,7 +195,7 @@ impl Trajectory {
             *there = lookout;
         } else {
             world.insert_resource(lookout);
-            add_observer_of_ticks(world, look);
+            add_observer(world, look);
         }
     }
 
@@ -203,11 +207,13 @@ impl Trajectory {
             std::mem::take(&mut lookout.moments)
         });
         let world = simulation.unpublished_world();
+        let evaluations = world.resource::<State>().evaluation.count;
         Self {
             moments,
             extents: simulation.bodies().extents().to_vec(),
             failure,
-            evaluations: world.resource::<State>().evaluation.count,
+            evaluations,
+            work: evaluations as f64 * work_of_an_evaluation(world.resource()),
             overloaded: world.resource::<State>().located.given_up > 0,
             bounded: world.resource::<State>().steps.is_bounded(),
             jumped: world.resource::<State>().located.count > 0,

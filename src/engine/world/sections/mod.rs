@@ -163,23 +163,25 @@ fn series(prefix: String, count: usize, lone_discs: bool, outline: &Outline) -> 
 struct MadeOf {
     material: MaterialIndex,
     density: f64,
-    stiffness: f64,
+    stiffness: Option<f64>,
 }
 
 impl MadeOf {
     fn named(world: &World, name: Option<&str>) -> Self {
         let material = material(world, name);
-        let made_of = &world.resource::<Materials>().by_index[material.index()];
-        Self { material, density: made_of.density, stiffness: made_of.stiffness }
+        let materials = world.resource::<Materials>();
+        let density = materials.by_index[material.index()].density;
+        Self { material, density, stiffness: materials.stiffness(material.index()) }
     }
 
-    /// A body at rest in the origin. Atoms without a stiffness of their own have the material's.
+    /// A body at rest in the origin. Atoms without a stiffness of their own have the material's. If it has none either, they wait for
+    /// one with NaN.
     fn body(&self, properties: &MassProperties) -> NewBody {
         let atom = |spec: &AtomSpec| Atom {
             offset: spec.offset,
             radius: spec.radius,
             mass: spec.mass.unwrap_or_default(),
-            stiffness: spec.stiffness.unwrap_or(self.stiffness),
+            stiffness: spec.stiffness.or(self.stiffness).unwrap_or(f64::NAN),
             material: self.material,
         };
         let corners = properties.hulls.iter().flat_map(|hull| {

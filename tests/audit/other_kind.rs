@@ -1,0 +1,93 @@
+//! Law: if contacts carry loads that change, runs state the faults of one kind of methods. The fault is a force from outside
+//! that acts only in steps with stages. It moves a body of 1 kg by `F t^2/2`. Velocity Verlet and methods
+//! that locate events then differ by that way, and each has to state it.
+//!
+//! Tolerance: a hundredth of the way, far above the errors of both methods for a constant force. Not tested: faults in part
+//! of a run, and scenes that only one kind can run.
+
+use bevy_app::App;
+use glam::DVec2;
+use jostle::report::estimate::{Effort, EstimateRequest, Repeated, estimate, watch};
+use jostle::scene::Source;
+use jostle::simulation::Overrides;
+use jostle::tick::{Energies, EvaluationMode, Model, State, SteadySpring, TickAppExt};
+use jostle::{Simulation, SimulationExt};
+
+/// The force of the fault in N, and the length of the run in s.
+const FORCE: f64 = 0.01;
+const DURATION: f64 = 1.0;
+/// The way of a body of 1 kg under it.
+const WAY: f64 = 0.5 * FORCE * DURATION * DURATION;
+
+struct Fault;
+
+impl Model for Fault {
+    fn energies(&self, _: &State) -> Energies {
+        Energies::default()
+    }
+
+    fn stiffness(&self, _: &State, _: &mut Vec<SteadySpring>) {}
+
+    fn apply_forces(&mut self, state: &mut State) {
+        if state.evaluation().mode == EvaluationMode::Frozen {
+            let (bodies, rates) = state.bodies_and_rates();
+            let force = DVec2::new(FORCE, 0.0);
+            rates.outside(bodies.position[1], force, 0.0);
+            bodies.push(1, DVec2::ZERO, force);
+        }
+    }
+}
+
+/// A box that lies on the floor under a load, and a body that touches nothing. The stated error of places in m, and the
+/// verdict.
+fn stated(load: &str, clock: &str) -> (f64, String) {
+    let scene = format!(
+        "Scene(format: 1, clock: (duration: {DURATION:?}{clock}), gravity: (0, -9.81),
+            materials: {{ \"m\": (stiffness: 1e4, friction: 0.5, restitution: 0.2) }},
+            walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\")],
+            bodies: [(name: \"box\", at: (0, 0.1), material: \"m\", mass: 1, shape: Rectangle(width: 0.2, height: 0.2)),
+                     (name: \"ghost\", at: (0, 9), collides: false, atoms: Disc(radius: 0.1, mass: 1))],
+            forces: [{load}])"
+    );
+    let source = Source::new("fault.ron", scene);
+    let load = |overrides: &Overrides| {
+        Simulation::load_with(&source, overrides, |app: &mut App| {
+            app.add_model(Fault);
+        })
+    };
+    let overrides = Overrides::default();
+    let mut simulation = load(&overrides).expect("a correct scene");
+    let wanted = EstimateRequest { effort: Effort::Little, ..EstimateRequest::default() };
+    watch(&mut simulation, wanted);
+    simulation.run_to_end().expect("numbers stay finite");
+    let repeated = Repeated { overrides: &overrides, load: &load, tell: None };
+    estimate(&mut simulation, wanted, &repeated).expect("the scene is still correct");
+    let card = simulation.card();
+    (card.error.and_then(|error| error.position.discretisation).expect("an error is stated"), card.verdict)
+}
+
+const CLOCKS: [&str; 4] = ["", ", tolerance: 1e-6", ", method: Dop853, tick: 1e-3", ", method: Reference"];
+
+#[test]
+fn a_fault_of_one_kind_of_methods_is_stated_under_loads_that_change() {
+    for load in [
+        "Drive(of: \"box\", force: (1, 0), course: Sine(frequency: 2))",
+        "Thrust(of: \"box\", force: (1, 0), from: 0.3)",
+    ] {
+        for clock in CLOCKS {
+            let (error, verdict) = stated(load, clock);
+            assert!((error - WAY).abs() < 0.01 * WAY, "{load}{clock}: {error:e} stated for {WAY:e}: {verdict}");
+            let located = !clock.is_empty();
+            assert!(!located || verdict.contains("Do not trust places"), "{load}{clock}: {verdict}");
+        }
+    }
+}
+
+/// A constant load needs no run of the other kind: its statement is that of finer runs.
+#[test]
+fn a_constant_load_is_stated_by_runs_of_one_kind() {
+    for clock in CLOCKS {
+        let (error, verdict) = stated("Torque(of: \"ghost\", value: 0)", clock);
+        assert!(error < 0.01 * WAY, "{clock}: {error:e} stated: {verdict}");
+    }
+}
