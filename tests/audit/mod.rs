@@ -7,6 +7,7 @@ mod defaults;
 mod defects;
 mod draw;
 mod fast_sensors;
+mod first_steps;
 mod impact;
 mod landings;
 mod letting_go;

@@ -116,7 +116,9 @@ impl Control {
     /// equal parts, one for a run without finer ones beside it.
     pub fn longest(&mut self, now: f64, jump: f64) -> f64 {
         if jump != self.jump {
-            (self.jump, self.part) = (jump, (jump - now) / self.allowance.shorter.ceil());
+            let part = (jump - now) / self.allowance.shorter.ceil();
+            // The times of one jump may differ by rounding. That has no parts, and a part of it would not pass time.
+            (self.jump, self.part) = (jump, if now + part > now { part } else { f64::INFINITY });
         }
         let part = if jump - now > (1.0 + WHOLE) * self.part { self.part } else { f64::INFINITY };
         let longest = (self.allowance.longest / self.allowance.shorter).min(part);
@@ -185,6 +187,10 @@ impl Control {
         let later = flow.reach();
         let reach =
             Reach { speed: reach.speed.max(later.speed), acceleration: reach.acceleration.max(later.acceleration) };
+        if reach == Reach::default() {
+            // No body moves yet, while states of models may. No size says how fast their change is: the error of the step does.
+            return longest;
+        }
         let allowed = libm::pow(self.allowance.share, 1.0 / f64::from(order));
         let mut length = longest;
         for _ in 0..PASSES {
