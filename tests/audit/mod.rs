@@ -8,6 +8,7 @@ mod defaults;
 mod defects;
 mod draw;
 mod fast_sensors;
+mod first_steps;
 mod impact;
 mod indeterminate;
 mod landings;

@@ -288,6 +288,12 @@ impl PairGeometry {
         self.velocity.dot(self.pair.normal)
     }
 
+    /// The speeds in m/s of which the velocities of the sides at the contact are differences.
+    pub fn speeds(&self, bodies: &Bodies) -> f64 {
+        let velocity = self.pair.b.velocity(bodies);
+        velocity.length() + (velocity - self.velocity).length()
+    }
+
     /// Velocity in m/s of side B along the surface of side A.
     pub fn sliding(&self, shares: Shares) -> f64 {
         let (radius_a, radius_b) = self.radii(shares);

@@ -10,7 +10,7 @@ use glam::DVec2;
 
 use super::steps::OneStep;
 use crate::tick::Flow;
-use crate::tick::{Reach, WorldFlow};
+use crate::tick::{Reach, StepCount, WorldFlow};
 use serde::{Deserialize, Serialize};
 
 /// A step aims at this share of the length at which its error would reach the allowance.
@@ -85,7 +85,8 @@ pub(super) struct Control {
     next: Option<f64>,
     /// The unit of errors for each number of the state.
     measures: Vec<f64>,
-    /// Whether the last step was allowed more than was asked for, because of rounding.
+    /// The error of velocities in m/s that the last step was allowed. Whether that is more than was asked for, because of rounding.
+    allowed: f64,
     bounded: bool,
     /// The next jump of a force in s, and the longest part in s of the way to it.
     jump: f64,
@@ -101,6 +102,7 @@ impl Control {
             origin: Vec::new(),
             next: None,
             measures: Vec::new(),
+            allowed: 0.0,
             bounded: false,
             jump: f64::INFINITY,
             part: f64::INFINITY,
@@ -116,7 +118,9 @@ impl Control {
     /// equal parts, one for a run without finer ones beside it.
     pub fn longest(&mut self, now: f64, jump: f64) -> f64 {
         if jump != self.jump {
-            (self.jump, self.part) = (jump, (jump - now) / self.allowance.shorter.ceil());
+            let part = (jump - now) / self.allowance.shorter.ceil();
+            // The times of one jump may differ by rounding. That has no parts, and a part of it would not pass time.
+            (self.jump, self.part) = (jump, if now + part > now { part } else { f64::INFINITY });
         }
         let part = if jump - now > (1.0 + WHOLE) * self.part { self.part } else { f64::INFINITY };
         let longest = (self.allowance.longest / self.allowance.shorter).min(part);
@@ -133,9 +137,13 @@ impl Control {
         self.allowance.most_steps
     }
 
-    /// Whether rounding of places allowed the last step a larger error than was asked for.
-    pub fn is_bounded(&self) -> bool {
-        self.bounded
+    /// Counts the error that the last step was allowed. Rounding of places may have made it larger than was asked for.
+    pub fn count(&self, count: &mut StepCount) {
+        count.allowed += self.allowed;
+        if self.bounded {
+            count.bounded += 1;
+            count.allowed_to_bounded += self.allowed;
+        }
     }
 
     /// Looks how far and how fast bodies are.
@@ -185,6 +193,10 @@ impl Control {
         let later = flow.reach();
         let reach =
             Reach { speed: reach.speed.max(later.speed), acceleration: reach.acceleration.max(later.acceleration) };
+        if reach == Reach::default() {
+            // No body moves yet, while states of models may. No size says how fast their change is: the error of the step does.
+            return longest;
+        }
         let allowed = libm::pow(self.allowance.share, 1.0 / f64::from(order));
         let mut length = longest;
         for _ in 0..PASSES {
@@ -221,7 +233,9 @@ impl Control {
         let rounding = ROUNDING * flow.farthest();
         let least = rounding.max(share * f64::MIN_POSITIVE);
         self.bounded = distance > STILL * flow.farthest() && (rounding > share * distance);
-        flow.measures((share * distance).max(least), (share * speed).max(least / length), &mut self.measures);
+        let speeds = (share * speed).max(least / length);
+        self.allowed = if self.bounded { speeds } else { share * speed };
+        flow.measures((share * distance).max(least), speeds, &mut self.measures);
         flow.measure_own(share, &mut self.measures);
         method.error(&self.measures)
     }

@@ -366,7 +366,9 @@ impl EventStepper {
         let count = flow.tick.steps();
         count.accepted += 1;
         count.rejected += rejected;
-        count.bounded += u64::from(self.control.as_ref().is_some_and(Control::is_bounded));
+        if let Some(control) = &self.control {
+            control.count(count);
+        }
         count.longest = count.longest.max(share * length);
         let cut = share < 1.0 || !fired.is_empty();
         let until = if share == 1.0 { until } else { from + share * length };

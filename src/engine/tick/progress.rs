@@ -94,6 +94,10 @@ pub struct StepCount {
     pub longest: f64,
     /// Accepted steps that were allowed a larger error than was asked for: rounding of places leaves no smaller one.
     pub bounded: u64,
+    /// The sum of the errors of velocities in m/s that accepted steps were allowed.
+    pub allowed: f64,
+    /// The same of bounded steps.
+    pub allowed_to_bounded: f64,
     /// Steps that were made shorter than asked for, so that they resolve contacts.
     pub shortened: u64,
     /// The tick from which on each is one step, not counted yet.
@@ -106,9 +110,11 @@ impl StepCount {
         self.accepted + self.whole_from.map_or(0, |from| tick - from)
     }
 
-    /// Whether rounding bounds more than a tenth of all steps, and more than one. Single steps do not count. The first
+    /// Whether steps that rounding bounds make more than half of the error, and more than a tenth of all steps. A finer run repeats
+    /// that half, and does not show it. Few steps do not count. The first
     /// step of a run comes before any body has moved far. The last one may be a remainder of rounding.
     pub fn is_bounded(&self) -> bool {
-        self.bounded > 1 && 10 * self.bounded > self.accepted
+        let many = self.bounded > 1 && 10 * self.bounded > self.accepted;
+        many && 2.0 * self.allowed_to_bounded > self.allowed
     }
 }

@@ -14,6 +14,10 @@ use crate::world::Bodies;
 /// The weight of a turn of the line of centres against a swing. A body that passes another one turns it by half a turn.
 const TURNS: f64 = 4.0;
 
+/// A contact that rows hold at another place accelerates by at most this share of what its force does alone. Forces of dependent
+/// rows leave 1e-10.
+const HELD: f64 = 1e-9;
+
 /// A rate that is not known.
 const UNKNOWN: f64 = f64::NAN;
 
@@ -26,6 +30,8 @@ pub(super) struct Pressure {
     pub second_rate: f64,
     /// The square of the angular frequency with which it swings, in 1/s2.
     pub swings: f64,
+    /// The acceleration in m/s2 by the force alone.
+    acceleration: f64,
 }
 
 impl Pressure {
@@ -39,7 +45,7 @@ impl Pressure {
     ) -> Self {
         let force = contact.normal_force;
         if contact.mode == Mode::Hold {
-            return Self { force, rate: UNKNOWN, second_rate: UNKNOWN, swings: 0.0 };
+            return Self { force, rate: UNKNOWN, second_rate: UNKNOWN, swings: 0.0, acceleration: 0.0 };
         }
         let approach = geometry.approach(bodies);
         let (stiffness, damping) = N::response(law, approach.mobility);
@@ -49,7 +55,14 @@ impl Pressure {
             rate: N::force_rate(law, contact.mode, approach, change),
             second_rate: N::force_second_rate(law, contact.mode, approach, change),
             swings: stiffness * approach.mobility + damped * damped,
+            acceleration: approach.mobility * force.abs(),
         }
+    }
+
+    /// The share of a velocity that is rounding. Zero if forces let the sides part or approach. Rows that hold other contacts of a
+    /// body hold this one still at an end of its band. The sign of the velocity that rounding leaves ends no mode.
+    fn rest(&self, change: Change) -> f64 {
+        if change.parting.abs() <= HELD * self.acceleration { ROUNDING } else { 0.0 }
     }
 }
 
@@ -90,7 +103,9 @@ impl View<'_> {
                 let loading = N::smooth_force(law, Mode::Loading, geometry.overlap, geometry.approach(bodies));
                 if let Some((value, slope)) = N::stays(law, contact.mode, (geometry.parting(), change.parting), loading)
                 {
-                    say(What::Turn, known(value, slope));
+                    let share = if N::SET_VALUED { pressure.rest(change) } else { 0.0 };
+                    let rounding = share * (geometry.speeds(bodies) + pressure.swings.sqrt() * contact.overlap);
+                    say(What::Turn, Indicator { rounding, ..known(value, slope) });
                 }
             }
             if law.tangential().acts() {
