@@ -8,7 +8,7 @@ use jostle_engine::contacts::penalty::at_rest::{DepthAtRest, ForceBand};
 use jostle_engine::tick::State;
 use jostle_language::numbers::number;
 
-/// A contact that lies deeper against its spring than this, as a multiple of what its load asks for, deserves a note.
+/// A contact deserves a note that lies deeper than this multiple of the depth that its load asks for.
 const DEEP: f64 = 1.5;
 
 /// So many bands are told one by one.

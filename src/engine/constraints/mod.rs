@@ -6,6 +6,7 @@
 //! | `redundant.rs` | chooses the forces if rows depend on each other |
 //! | `solver.rs` | solves the same for joints, by sparse factors (`block_cholesky.rs`) |
 //! | `borders.rs` | solves held contacts beside those factors |
+//! | `cones.rs` | keeps friction of contacts that hold together within their cones |
 //! | `projection.rs` | brings places and velocities back onto the constraints of joints |
 //! | `rest_solver/` | finds bounded forces that bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | groups the links that act on each other |
@@ -16,6 +17,7 @@
 
 mod block_cholesky;
 mod borders;
+mod cones;
 mod dead_point;
 pub mod islands;
 mod projection;
@@ -26,6 +28,7 @@ mod rows;
 mod solver;
 pub mod spring_network;
 
+pub use cones::{Cone, ConePressure};
 pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;

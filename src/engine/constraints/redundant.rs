@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 const DOUBTFUL: f64 = 1e-8;
 /// A row is redundant if less than this share of it remains after the projections on other rows are subtracted.
 const NOTHING_NEW: f64 = 1e-10;
-/// The least measure of an unknown as a share of those that it shares a row with: the root of [`NOTHING_NEW`], so that a row
-/// that only it can satisfy still counts as new.
+/// The least measure of an unknown as a share of those in the same row: the root of [`NOTHING_NEW`]. So a row that
+/// only it can satisfy still counts as new.
 const LEAST_MEASURE: f64 = 1e-5;
 /// The measure in newtons of an unknown without capacity among others of that kind: the squares of smaller ones vanish.
 const NO_CAPACITY: f64 = 1e-100;
@@ -74,8 +74,8 @@ fn eliminate(matrix: &mut [f64], answer: &mut [f64]) -> bool {
 }
 
 /// The solution of `matrix x = right` nearest to the natural forces: with `x = natural + measure y` the shortest `y`, which is
-/// a sum of rows. Rows are made orthogonal (Gram and Schmidt), each time the one of which the greatest share is left (Golub and
-/// Van Loan, *Matrix Computations*, 5.4.2). So rounding in a weak direction cannot make a row of which nothing is left seem new.
+/// a sum of rows. Rows are made orthogonal one by one (Gram and Schmidt). The next row is the one of which the greatest share is
+/// left (Golub and Van Loan, *Matrix Computations*, 5.4.2). So rounding in a weak direction cannot make a row of which nothing is left seem new.
 fn nearest(matrix: &[f64], right: &[f64], shares: &[Share], answer: &mut [f64]) {
     let size = right.len();
     let measures = measures(matrix, shares);
@@ -178,7 +178,7 @@ mod tests {
             }
         }
     }
-    /// Law: rows that depend on each other but for rounding do not make forces beyond all bounds. Six slipping contacts of one
+    /// Law: rows that rounding alone tells apart do not make forces beyond all bounds. Six slipping contacts of one
     /// block have three freedoms, with normals that differ by a few 1e-8 to 1e-5 rad. Tolerance: rounding of the rows.
     #[test]
     fn rounding_makes_no_forces() {

@@ -2,7 +2,7 @@
 
 use glam::DVec2;
 
-use super::Share;
+use super::{Cone, Share};
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
@@ -69,6 +69,8 @@ pub struct Row {
     pub bound: f64,
     /// Whether it gives its bound if it would need more, in methods that go from tick to tick. Motors with a limit do.
     pub yields: bool,
+    /// The bound of friction, in steps with stages.
+    pub cone: Option<Cone>,
     /// The sign of the only force and impulse that it gives: a limit pushes, and never pulls. Zero: both signs.
     pub pushes: f64,
     /// Whether the forces on its two sides do not balance, because other joints pass the rest on to the world. Gears
@@ -91,6 +93,7 @@ impl Default for Row {
             rate: 0.0,
             bound: f64::INFINITY,
             yields: false,
+            cone: None,
             pushes: 0.0,
             grounded: false,
         }

@@ -149,6 +149,10 @@ impl Rows {
         self.answer[index]
     }
 
+    pub(super) fn set_answer(&mut self, answer: Vec<f64>) {
+        self.answer = answer;
+    }
+
     /// The row that only pushes and would have to pull most. Rounding is a small share of all forces together.
     pub fn pulling(&self) -> Option<&Row> {
         let pull = |(row, force): (&Row, &f64)| -row.pushes * force;
@@ -166,14 +170,17 @@ impl Rows {
 
     /// Finds the forces of all rows, given all others.
     pub fn solve(&mut self, bodies: &Bodies) {
+        self.solve_beside(bodies, |_| 0.0);
+    }
+
+    /// The same beside rows of another list, which accelerate each row by `beside`, in m/s2 or rad/s2.
+    pub(super) fn solve_beside(&mut self, bodies: &Bodies, beside: impl Fn(&Row) -> f64) {
+        self.answer.clear();
+        self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies) - beside(row)));
         if self.has_joints() {
-            self.answer.clear();
-            self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies)));
             return self.solve_joined(bodies, |row| row.share);
         }
         self.fill_matrix(bodies);
-        self.answer.clear();
-        self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies)));
         redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share), &mut self.work);
     }
 
@@ -198,8 +205,7 @@ impl Rows {
             let given = |row: &Row| -> f64 {
                 self.given.iter().map(|other| row.response(&self.rows[*other], bodies) * self.answer[*other]).sum()
             };
-            others.answer = others.rows.iter().map(|row| -row.acceleration(bodies) - given(row)).collect();
-            others.solve_joined(bodies, |row| row.share);
+            others.solve_beside(bodies, given);
             kept.iter().zip(&others.answer).for_each(|(index, force)| self.answer[*index] = *force);
         }
     }

@@ -52,7 +52,7 @@ impl IslandLink for Linked {
     }
 }
 
-/// A joint bears what contacts leave, whatever its force: its measure is so many times that of the contacts beside it. The square of
+/// A joint bears all that contacts leave. Its measure is so many times that of the contacts beside it. The square of
 /// this is the share by which contacts depart from their springs.
 const BEARS: f64 = 1e4;
 

@@ -1,5 +1,5 @@
-//! Static displacements of bodies that linear springs hold: `K u = f` with `K = sum k g g^T`, by conjugate gradients
-//! (Hestenes and Stiefel 1952), preconditioned with the blocks of single bodies.
+//! Static displacements of bodies that linear springs hold: `K u = f` with `K = sum k g g^T`. The method is that of conjugate
+//! gradients (Hestenes and Stiefel 1952). The blocks of single bodies precondition it.
 //!
 //! `g` is the row of a spring: the factors from the displacements of its two bodies to its elongation. `K` may be
 //! singular. A disc on a floor without friction is held in one direction of three. Such a system has a solution if no
@@ -148,7 +148,7 @@ impl Block {
         Twist { linear: DVec2::new(row(0), row(1)), angular: row(2) }
     }
 
-    /// Gauss and Jordan's elimination with the greatest remaining pivot. What is below rounding is left out.
+    /// Gauss and Jordan's elimination with the greatest remaining pivot. Pivots below rounding are left out.
     fn inverse(&self) -> Self {
         let (mut matrix, mut done) = (self.0, [false; 3]);
         for _ in 0..3 {
@@ -208,7 +208,7 @@ mod tests {
         Twist { linear: DVec2::new(0.0, -force), angular: 0.0 }
     }
 
-    /// Law: in a chain each spring bears all below it, so the displacements of n equal bodies are sums of whole numbers. Tolerance:
+    /// Law: in a chain each spring bears all below it. So the displacements of equal bodies are sums of whole numbers. Tolerance:
     /// the gain of a solution, times the ratio of the greatest to the least force.
     #[test]
     fn a_chain_hangs_by_the_sums_of_its_loads() {
@@ -231,7 +231,7 @@ mod tests {
         }
     }
 
-    /// Law: a force in a direction that no spring holds has no displacement, and a direction without a force needs no spring.
+    /// Law: a force that no spring holds has no displacement. A direction without a force needs no spring.
     #[test]
     fn a_free_direction_bears_nothing() {
         let floor = NetworkSpring { ends: [None, end(0, 0.0, 1.0, 0.0)], stiffness: 1e6 };

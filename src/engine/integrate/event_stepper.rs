@@ -30,8 +30,8 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
 
-/// The number of times that a step whose trial overflows is shortened, and the share that remains each time. A sum of forces
-/// that has no bound at the beginning of the step keeps overflowing, and the run ends with an error.
+/// The number of times that a step whose trial overflows is shortened, and the share that remains each time. Forces without a
+/// bound at the beginning of the step keep overflowing, and the run ends with an error.
 const MOST_OVERFLOWS: u32 = 30;
 const AFTER_OVERFLOW: f64 = 0.25;
 

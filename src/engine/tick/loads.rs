@@ -4,7 +4,7 @@ use super::{Evaluation, EvaluationMode, Rates, State};
 use crate::constraints::spring_network::Twist;
 
 impl State {
-    /// The force and torque on each body as bodies stand now, at the beginning of the run, without contacts and joints. It leaves no
+    /// The force and torque on each body at the beginning of the run, without contacts and joints. It leaves no
     /// trace but the pose of the atoms.
     pub(crate) fn loads_at_start(&mut self, loads: &mut Vec<Twist>) {
         self.find_roles();

@@ -128,7 +128,9 @@ impl State {
         }
         self.turn_to(TickPart::Constraints);
         self.rows.solve(&self.bodies);
-        if !self.evaluation.mode.is_staged() {
+        if self.evaluation.mode.is_staged() {
+            self.rows.stay_in_cones(&self.bodies);
+        } else {
             self.rows.give_way(&self.bodies);
         }
         each!(self, rows, model => model.take_rows(self));

@@ -1,8 +1,8 @@
-//! Contacts at rest, for the card: how deep they lie against their springs, and between which bodies statics does not determine the
-//! normal force.
+//! Contacts at rest, for the card. It tells how deep they lie against their springs. It names bodies between which statics does not
+//! determine the normal force.
 //!
-//! The ends of the band of a force are those of a linear programme: the greatest and least sum of the normal forces between two
-//! bodies, within the bands of all normal forces, and under the same balance. Friction keeps its present forces, and joints give what
+//! The ends of the band of a force are those of a linear programme. It looks for the greatest and least sum of the normal forces
+//! between two bodies. All normal forces stay within their bands, and all loads balance. Friction keeps its present forces, and joints give what
 //! they have to. The engine goes along the projected gradient from bound to bound (Rosen 1960). If two independent forces are free,
 //! the band may be wider still.
 
@@ -20,7 +20,7 @@ use crate::tick::State;
 use crate::world::Bodies;
 use glam::DVec2;
 
-/// Bands are not looked for among more contacts at rest or rows of joints than these: the band of a heap is of no use.
+/// Bands are not looked for among more contacts at rest or rows of joints than these. The band of a heap is of no use.
 const MOST: usize = 64;
 
 /// A share of a force that counts as rounding.
@@ -51,7 +51,7 @@ pub struct ForceBand {
     pub ends: (f64, f64),
 }
 
-/// What the card tells of contacts at rest.
+/// The contacts at rest, for the card.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct AtRest {
     /// The deepest one; `None` if no contact at rest bears a force.

@@ -18,7 +18,7 @@ pub(super) enum Named {
     Surface((u32, u32)),
 }
 
-/// A spring along the surface or against rolling: its elongation in metres or rad, and its force in N or N m.
+/// A spring along the surface or against rolling. Its elongation is in metres or rad, its force in N or N m.
 #[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
 pub(super) struct Drawn {
     pub elongation: f64,

@@ -1,12 +1,12 @@
-//! The start in equilibrium: bodies that touch and do not move begin where the springs of their contacts bear their loads.
+//! The start in equilibrium. Bodies that touch and do not move begin where the springs of their contacts bear their loads.
 //!
 //! Bodies that are put onto each other with sides that just touch bear nothing yet. They would drop onto their springs,
-//! and rebound. So before the first tick the engine looks for places in which the springs bear all loads
-//! (`equilibrium_search.rs`), and moves the bodies there. No body moves in these cases:
+//! and rebound. Before the first tick the engine looks for places in which the springs bear all loads
+//! (`equilibrium_search.rs`). It moves the bodies there. No body moves in these cases:
 //!
 //! * A contact of the island slides, turns, approaches or parts at the start.
 //! * The springs bear the loads as bodies stand, within the band of the normal law.
-//! * A contact is more compressed than its load asks for: the scene gives its springs that energy.
+//! * Sides overlap by another depth than their load asks for: the scene gives their springs that energy.
 //! * No equilibrium exists within the cones of friction, or the search does not find it within its bound. The card says the latter.
 //!
 //! The places depend on the scene alone. So all methods and ticks begin in the same state.
@@ -27,7 +27,7 @@ use crate::tick::{Notes, State};
 use crate::world::{Bodies, Materials, Name, Position, Rotation};
 use jostle_language::numbers::number;
 
-/// Two sides touch at the start if the gap between them is at most this share of the smaller size: nine digits of a place.
+/// Two sides touch at the start if the gap between them is at most this share of the smaller size. It is the last of nine digits.
 const TOUCHES: f64 = 1e-9;
 
 /// Moves the bodies that touch at the start into their equilibrium, and says by how much.

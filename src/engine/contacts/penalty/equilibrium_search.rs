@@ -1,5 +1,5 @@
-//! The search for places in which the springs of contacts bear all loads: Newton's method on the forces of islands, with the springs
-//! that touch ([`crate::constraints::spring_network`]). Friction and rolling resistance are springs too. Beyond their cones they
+//! The search for places in which the springs of contacts bear all loads. It is Newton's method on the forces of islands, with the
+//! springs that touch ([`crate::constraints::spring_network`]). Friction and rolling resistance are springs too. Beyond their cones they
 //! slip, and keep the force of the cone (return mapping, Simo and Hughes 1998).
 //!
 //! The first round takes all that touches as held, because no force says yet what opens or slips. Each later round takes the
@@ -17,8 +17,8 @@ use crate::contacts::geometry::PairGeometry;
 use crate::tick::{State, SteadySpring};
 use crate::world::Bodies;
 
-/// Rounds of Newton's method. The contacts that open and slip are known after a few. If friction slips at its cone, whose width
-/// follows the normal force of the round before, each round reduces the rest by a factor.
+/// Rounds of Newton's method. The contacts that open and slip are known after a few. The cone of friction that slips follows the
+/// normal force of the round before. Then each round reduces the rest by a factor.
 const ROUNDS: usize = 60;
 
 /// Products of all islands with their springs, each counted once for each spring: a quarter of a second.
@@ -30,7 +30,7 @@ const RETRIES: usize = 8;
 /// The forces on a body balance up to this share: rounding of their sum.
 const BALANCED: f64 = 1e-12;
 
-/// The same where rounding of far places leaves no better balance: from round to round it does not halve any more.
+/// The same if rounding of far places leaves no better balance. From round to round it does not halve any more.
 const NEARLY: f64 = 1e-7;
 
 /// Friction bears this share of its cone at most. The rest keeps rounding of later forces inside the cone.
@@ -313,7 +313,7 @@ impl Search {
         let index =
             |body: usize| Some(self.place[body]).filter(|place| place.0 == number).map(|place| place.1 as usize);
         let mut springs = Vec::new();
-        // Where the rows of each part begin.
+        // The index of the first row of each part.
         let mut rows = Vec::with_capacity(parts.len());
         for part in &mut *parts {
             let geometry = part.geometry(bodies, pairs);
@@ -427,16 +427,13 @@ impl IslandSearch {
             });
             apart && part.now.overlap > 0.0
         };
-        let released = |part: &Part| {
-            let began = if part.began > part.touch { part.began } else { 0.0 };
-            began * (1.0 - band(part)) > part.now.overlap.max(0.0) * (1.0 + SAME)
-        };
         let bears_as_placed = |part: &Part| {
             let (began, now) = (part.began.max(0.0), part.now.overlap.max(0.0));
             (now - began).abs() <= band(part) * began + SAME * now
         };
+        let drawn = |part: &Part| part.began > part.touch && !bears_as_placed(part);
         let stays = first
-            || self.parts.iter().any(|part| foreign(part) || released(part))
+            || self.parts.iter().any(|part| foreign(part) || drawn(part))
             || self.parts.iter().all(bears_as_placed);
         self.holds_as_placed = self.parts.iter().all(bears_as_placed);
         if stays { self.leave(Outcome::AsPlaced, bodies) } else { self.outcome = Outcome::Found }
@@ -444,7 +441,7 @@ impl IslandSearch {
 }
 
 impl Part {
-    /// A contact that holds as it stands, under the force of its spring; `None` if its law has no band of forces, or it just touches.
+    /// A contact that holds as it stands, under the force of its spring. `None`: its law has no band of forces, or it just touches.
     fn as_placed(&self, set_valued: bool) -> Option<Begun> {
         let holds = set_valued && self.law.inelasticity > 0.0 && self.level && self.began > self.touch;
         holds.then(|| Begun {

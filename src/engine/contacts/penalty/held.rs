@@ -5,7 +5,7 @@ use glam::DVec2;
 use super::contact::Contact;
 use super::pair_law::PairLaw;
 use crate::constraints::islands::IslandLink;
-use crate::constraints::{LostTo, Row, RowSide, Rows, Share};
+use crate::constraints::{Cone, ConePressure, LostTo, Row, RowSide, Rows, Share};
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
@@ -98,7 +98,17 @@ impl Held {
         let measure = (law.friction_static * law.stiffness * geometry.overlap).max(f64::MIN_POSITIVE);
         let share = Share { natural: -law.tangential_stiffness * contact.tangential.elongation, measure };
         let inertial = geometry.inertial(law.shares(), bodies).1;
-        rows.add(row(geometry, law, (tangent, tangent), inertial, share, LostTo::Friction, bodies));
+        let mut row = row(geometry, law, (tangent, tangent), inertial, share, LostTo::Friction, bodies);
+        let normal = self.contacts.last().filter(|(before, part)| {
+            let same = before.pair.index == geometry.pair.index && before.pair.listed() == geometry.pair.listed();
+            same && *part == HeldPart::Normal
+        });
+        let pressure = match normal {
+            Some(_) => ConePressure::Row(rows.len() - 1),
+            None => ConePressure::Force(contact.normal_force),
+        };
+        row.cone = Some(Cone { coefficient: law.friction_static, pressure });
+        rows.add(row);
         self.contacts.push((*geometry, HeldPart::Tangent));
     }
 

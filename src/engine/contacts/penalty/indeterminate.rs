@@ -1,8 +1,8 @@
-//! Contacts at rest whose forces statics does not determine. Of all forces that balance the loads, an island at rest takes those
-//! nearest to the springs of its contacts, as [`crate::constraints`] does in stages of steps. The card names the contacts whose
+//! Contacts at rest whose forces statics does not determine. An island at rest takes those forces that balance the loads and are
+//! nearest to the springs of its contacts. So does [`crate::constraints`] in stages of steps. The card names the contacts whose
 //! normal forces have a band.
 //!
-//! The nearest forces are `f = s + D^2 A^T y`, with the forces `s` of the springs, the measures `D` of the contacts, and `A` their
+//! The nearest forces are `f = s + D^2 A^T y`. Here `s` are the forces of the springs, `D` the measures of the contacts, and `A` their
 //! rows. `A D^2 A^T y` is what the springs' forces lack. That is the static displacement of a network of springs with stiffnesses
 //! `D^2` ([`crate::constraints::spring_network`]).
 
@@ -12,7 +12,7 @@ use crate::constraints::rest_solver::{Mover, RestContact};
 use crate::constraints::spring_network::{self, NetworkEnd, NetworkSpring, Twist};
 use glam::DVec2;
 
-/// Forces that are nearer to each other than this share of a measure are the same: the remainder of the search for rest.
+/// Forces that are nearer to each other than this share of a measure are the same. The search for rest leaves as much.
 const SAME: f64 = 1e-9;
 
 /// Rounds in which forces beyond their bounds are put onto them, and the others are found again.

@@ -86,7 +86,7 @@ pub struct Penalty {
 #[derive(Clone, Copy, Debug, Default, PartialEq, Deserialize, Serialize, JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub enum Start {
-    /// In equilibrium where there is one: the engine moves them into the springs of their contacts, which then bear the
+    /// In equilibrium if there is one. The engine moves them into the springs of their contacts, which then bear the
     /// loads. The card says by how far.
     #[default]
     Equilibrium,

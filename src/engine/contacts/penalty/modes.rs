@@ -438,7 +438,7 @@ impl Choice<'_> {
         }
     }
 
-    /// Of all forces that balance the loads of an island at rest, it takes those nearest to the springs of its contacts.
+    /// An island at rest takes those forces that balance its loads and are nearest to the springs of its contacts.
     fn share_out(&mut self, cases: &[ContactSides], island: &Island) {
         let resting = cases.iter().zip(&island.contacts).map(|(case, seen)| {
             let (contact, law) = self.known(case);

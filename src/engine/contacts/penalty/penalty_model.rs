@@ -33,7 +33,7 @@ pub struct PenaltyState {
 }
 
 impl PenaltyState {
-    /// What the card tells of contacts at rest.
+    /// The contacts at rest, for the card.
     pub fn at_rest(&self, state: &State) -> AtRest {
         at_rest::look(&self.contacts, state)
     }

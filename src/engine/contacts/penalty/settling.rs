@@ -34,7 +34,7 @@ impl View<'_> {
             self.contacts.before.clear();
             self.contacts.stopped.clear();
         }
-        let corrected = self.settle_stopped::<N>()
+        let corrected = self.settle_held_friction::<N>()
             || self.settle_normals::<N>()
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)
             || self.settle_friction::<N>(|grip| grip == Grip::Hold);
@@ -44,24 +44,24 @@ impl View<'_> {
         corrected
     }
 
-    /// Lets friction slide on that was tried as held beyond its cone, if a normal force leaves its bounds. A friction without
-    /// a bound makes normal forces that the real one does not. Says whether there was any.
-    fn settle_stopped<N: NormalForce>(&mut self) -> bool {
-        if self.contacts.stopped.is_empty() || !(0..self.len()).any(|index| self.is_out_of_band::<N>(index)) {
+    /// Lets friction slide that holds beyond its cone, if a normal force leaves its bounds. A friction without a bound makes normal
+    /// forces that the real one does not. So its cone follows from a force within the bounds. Says whether there was any.
+    fn settle_held_friction<N: NormalForce>(&mut self) -> bool {
+        if !(0..self.len()).any(|index| self.is_out_of_band::<N>(index)) {
             return false;
         }
         let mut corrected = false;
-        let stopped = std::mem::take(&mut self.contacts.stopped);
-        for &index in &stopped {
-            let geometry = self.look(index as usize);
-            let (mut contact, law, _) = self.whole(index as usize, &geometry);
-            if contact.tangential.grip == Grip::Hold {
+        let springs = std::mem::take(&mut self.contacts.before);
+        for index in 0..self.len() {
+            let (mut contact, law) = self.contact(index);
+            if contact.mode == Mode::Hold && contact.tangential.grip == Grip::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 let base = Base { force: contact.normal_force.min(greatest).max(least), rate: 0.0 };
-                corrected |= contact.tangential.settle_force(&law.tangential(), base, None);
+                let before = springs.get(index).copied().unwrap_or_default();
+                corrected |= contact.tangential.settle_force(&law.tangential(), base, before[0]);
             }
         }
-        self.contacts.stopped = stopped;
+        self.contacts.before = springs;
         corrected
     }
 

@@ -1,4 +1,4 @@
-//! Contacts in stages of a step that have come to stand without an event: both sides stop together, as under a press at the end of its
+//! Contacts in stages of a step that have come to stand without an event. Both sides stop together, as under a press at the end of its
 //! path. Their modes end at roots of velocities, and a velocity that stays zero has none. They are held before the next step.
 
 use super::apply::PenaltyContacts;
@@ -11,7 +11,7 @@ use crate::world::Bodies;
 /// A share of velocities that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Sides that accelerate by at most this share of what the spring alone gives them stand: rounding of forces that balance.
+/// Sides stand that accelerate by at most this share of the acceleration by the spring alone: rounding of forces that balance.
 const STANDS: f64 = 1e-9;
 
 /// Holds the contacts whose sides neither move nor accelerate along the normal. Returns whether there were any.

@@ -71,8 +71,8 @@ pub fn plugin(app: &mut App) {
     ]);
 }
 
-/// The candidate pairs of the present state, for a look before the first tick, and by how far in metres each body may then move
-/// without missing a pair. `None` if there are too many pairs.
+/// The candidate pairs of the present state, for a look before the first tick. The length in metres is how far each body may then
+/// move without missing a pair. `None` if there are too many pairs.
 pub(super) fn look(bodies: &mut Bodies) -> Option<(CandidatePairs, f64)> {
     let (mut pairs, mut bounds) = (CandidatePairs::default(), Bounds::default());
     bounds.update(bodies, &Evaluation { mode: EvaluationMode::Frozen, ..Evaluation::default() });

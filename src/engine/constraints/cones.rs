@@ -1,0 +1,193 @@
+//! Friction that holds several contacts of one body together, within the cones of all of them.
+//!
+//! Rows of such friction depend on each other, so only their sum is determined. The forces nearest to the springs may be beyond the
+//! cone of one contact and far within that of another. Such a contact gives its bound, and the others bear the rest. The motion
+//! is the same. Only if the others cannot bear it does friction slip, and the bound of the last contact tells when.
+
+use super::rows::Rows;
+use crate::world::Bodies;
+use serde::{Deserialize, Serialize};
+
+/// A row that the others hold accelerates by at most this share of all accelerations that cancel there. Dependent rows leave
+/// 1e-10, and a row that is free leaves all of it.
+const HELD: f64 = 1e-6;
+
+/// The bound of friction along the surface.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Cone {
+    /// The static coefficient.
+    pub coefficient: f64,
+    /// The force that presses the sides together.
+    pub pressure: ConePressure,
+}
+
+/// The normal force of a contact with friction.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub enum ConePressure {
+    /// The force of the row with this index.
+    Row(usize),
+    /// A known force in newtons.
+    Force(f64),
+}
+
+/// A row that gives the bound of its cone, in a direction.
+#[derive(Clone, Copy)]
+struct AtBound {
+    row: usize,
+    sign: f64,
+    cone: Cone,
+}
+
+impl Rows {
+    /// After [`Rows::solve`]: friction beyond its cone gives its bound if other rows hold its contact.
+    pub fn stay_in_cones(&mut self, bodies: &Bodies) {
+        let (mut given, mut refused): (Vec<AtBound>, Vec<usize>) = (Vec::new(), Vec::new());
+        while let Some(next) = self.farthest_beyond(&given, &refused) {
+            given.push(next);
+            match self.solved_beside(&given, bodies) {
+                Some(answer) => self.set_answer(answer),
+                None => {
+                    given.pop();
+                    refused.push(next.row);
+                }
+            }
+        }
+    }
+
+    /// The row that exceeds its cone by the greatest factor, among those not looked at yet.
+    fn farthest_beyond(&self, given: &[AtBound], refused: &[usize]) -> Option<AtBound> {
+        let open = |row: &usize| !refused.contains(row) && given.iter().all(|other| other.row != *row);
+        let beyond = (0..self.len()).filter(open).filter_map(|row| {
+            let cone = self.row(row).cone?;
+            let (force, limit) = (self.force(row), self.limit(cone));
+            (force.abs() > limit).then_some((force.abs() / limit, AtBound { row, sign: force.signum(), cone }))
+        });
+        beyond.reduce(|most, next| if next.0 > most.0 { next } else { most }).map(|(_, row)| row)
+    }
+
+    fn limit(&self, cone: Cone) -> f64 {
+        let force = match cone.pressure {
+            ConePressure::Row(row) => self.force(row),
+            ConePressure::Force(force) => force,
+        };
+        cone.coefficient * force.max(0.0)
+    }
+
+    /// The forces of all rows, of which some give their bounds. `None` if the others do not hold those.
+    fn solved_beside(&self, given: &[AtBound], bodies: &Bodies) -> Option<Vec<f64>> {
+        let mut others = Self::default();
+        let is_given = |row: usize| given.iter().any(|other| other.row == row);
+        let kept: Vec<usize> = (0..self.len()).filter(|row| !is_given(*row)).collect();
+        for &index in &kept {
+            let mut row = *self.row(index);
+            // Friction at its bound follows the normal force.
+            for other in given.iter().filter(|other| other.cone.pressure == ConePressure::Row(index)) {
+                for (side, along) in row.sides.iter_mut().zip(&self.row(other.row).sides) {
+                    if let (Some(side), Some(along)) = (side, along) {
+                        side.force += along.force * (other.sign * other.cone.coefficient);
+                        side.torque += along.torque * (other.sign * other.cone.coefficient);
+                    }
+                }
+            }
+            others.add(row);
+        }
+        let known: Vec<(usize, f64)> = given
+            .iter()
+            .filter(|other| matches!(other.cone.pressure, ConePressure::Force(_)))
+            .map(|other| (other.row, other.sign * self.limit(other.cone)))
+            .collect();
+        let beside = |row: &super::Row| -> f64 {
+            known.iter().map(|(other, force)| row.response(self.row(*other), bodies) * force).sum()
+        };
+        others.solve_beside(bodies, beside);
+        let holds = |other: &AtBound| {
+            let row = self.row(other.row);
+            let own = row.acceleration(bodies) + beside(row);
+            let terms = others.all().iter().enumerate().map(|(index, of)| row.response(of, bodies) * others.force(index));
+            let (sum, size) = terms.fold((own, own.abs()), |(sum, size), term| (sum + term, size + term.abs()));
+            sum.abs() <= HELD * size
+        };
+        if !given.iter().all(holds) {
+            return None;
+        }
+        let mut answer = vec![0.0; self.len()];
+        kept.iter().enumerate().for_each(|(index, row)| answer[*row] = others.force(index));
+        for other in given {
+            let force = match other.cone.pressure {
+                ConePressure::Row(row) => answer[row],
+                ConePressure::Force(force) => force,
+            };
+            answer[other.row] = other.sign * (other.cone.coefficient * force.max(0.0));
+        }
+        Some(answer)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::super::row::RowSide;
+    use super::super::{Row, Share};
+    use super::*;
+    use bevy_ecs::entity::Entity;
+    use glam::DVec2;
+
+    /// A block of 1 kg on two corners at x = -1 and 1, its centre at a height of 0.5. It is pressed down with 10 N at `x`, and pulled
+    /// with `pull` newtons along the floor. Springs of friction would bear half of the pull each.
+    fn block(x: f64, pull: f64) -> (Rows, Bodies) {
+        let mut bodies = Bodies {
+            entity: vec![Entity::PLACEHOLDER],
+            dynamic: vec![true],
+            mass: vec![1.0],
+            inertia: vec![1.0],
+            force: vec![DVec2::new(pull, -10.0)],
+            torque: vec![-10.0 * x - 0.5 * pull],
+            ..Bodies::default()
+        };
+        bodies.velocity.push(DVec2::ZERO);
+        bodies.spin.push(0.0);
+        let mut rows = Rows::default();
+        for (index, corner) in [-1.0, 1.0].into_iter().enumerate() {
+            let arm = DVec2::new(corner, -0.5);
+            for direction in [DVec2::Y, DVec2::X] {
+                let torque = arm.perp_dot(direction);
+                let side = RowSide { body: 0, direction, lever: torque, force: direction, torque };
+                let cone = Cone { coefficient: 0.5, pressure: ConePressure::Row(2 * index) };
+                let cone = (direction == DVec2::X).then_some(cone);
+                let share = Share { natural: 0.0, measure: 1.0 };
+                rows.add(Row { sides: [None, Some(side)], share, cone, ..Row::default() });
+            }
+        }
+        rows.solve(&bodies);
+        (rows, bodies)
+    }
+
+    /// Law: friction holds as long as the sum of all cones suffices, however the weight lies. The sum of friction is the pull, and no
+    /// contact exceeds its cone. Tolerance: rounding.
+    #[test]
+    fn friction_holds_up_to_the_sum_of_all_cones() {
+        for x in [-0.9, -0.3, 0.0, 0.4, 0.8] {
+            for pull in [0.5, 2.0, 4.0, 4.9, -4.9] {
+                let (mut rows, bodies) = block(x, pull);
+                rows.stay_in_cones(&bodies);
+                for corner in [0, 2] {
+                    let (normal, friction) = (rows.force(corner), rows.force(corner + 1));
+                    assert!(friction.abs() <= 0.5 * normal + 1e-12, "{x}, {pull}: {friction} under {normal}");
+                }
+                assert!((rows.force(1) + rows.force(3) + pull).abs() < 1e-12, "{x}, {pull}");
+                assert!((rows.force(0) + rows.force(2) - 10.0).abs() < 1e-12, "{x}, {pull}");
+            }
+        }
+    }
+
+    /// Law: beyond the sum of all cones the last contact stays beyond its own, by which its event is found.
+    #[test]
+    fn beyond_the_sum_of_all_cones_one_contact_is_beyond_its_own() {
+        for pull in [5.1, 6.0, -7.0] {
+            let (mut rows, bodies) = block(0.4, pull);
+            rows.stay_in_cones(&bodies);
+            let beyond = |corner: usize| rows.force(corner + 1).abs() > 0.5 * rows.force(corner);
+            assert!(beyond(0) || beyond(2), "{pull}");
+            assert!((rows.force(1) + rows.force(3) + pull).abs() < 1e-12, "{pull}");
+        }
+    }
+}
