@@ -59,10 +59,10 @@ impl Pressure {
         }
     }
 
-    /// The share of a velocity that is rounding. Zero if forces let the sides part or approach. Rows that hold other contacts of a
-    /// body hold this one still at an end of its band. The sign of the velocity that rounding leaves ends no mode.
-    fn rest(&self, change: Change) -> f64 {
-        if change.parting.abs() <= HELD * self.acceleration { ROUNDING } else { 0.0 }
+    /// Whether the sides neither part nor approach by the forces on them. Rows that hold other contacts of a body hold this one
+    /// still at an end of its band. The sign of the velocity that rounding leaves ends no mode.
+    fn rests(&self, change: Change) -> bool {
+        change.parting.abs() <= HELD * self.acceleration
     }
 }
 
@@ -103,8 +103,11 @@ impl View<'_> {
                 let loading = N::smooth_force(law, Mode::Loading, geometry.overlap, geometry.approach(bodies));
                 if let Some((value, slope)) = N::stays(law, contact.mode, (geometry.parting(), change.parting), loading)
                 {
-                    let share = if N::SET_VALUED { pressure.rest(change) } else { 0.0 };
-                    let rounding = share * (geometry.speeds(bodies) + pressure.swings.sqrt() * contact.overlap);
+                    let rounding = if N::SET_VALUED && pressure.rests(change) {
+                        ROUNDING * (geometry.speeds(bodies) + pressure.swings.sqrt() * contact.overlap)
+                    } else {
+                        0.0
+                    };
                     say(What::Turn, Indicator { rounding, ..known(value, slope) });
                 }
             }
