@@ -56,7 +56,7 @@ fn a_squeezed_box_bears_what_its_springs_bear() {
 }
 
 /// A disc on a slide lies in a table that moves. The slide would bear any part of the weight, so the contact bears what its spring
-/// does, `k d`. While the table is faster, friction drives the disc with `mu k d/m`. Order 2 of Verlet in its first stick: one tick.
+/// does, `k d`. While the table is faster, friction drives the disc with `mu k d/m`. Velocity Verlet draws the spring first.
 #[test]
 fn a_disc_on_a_slide_is_driven_by_the_force_of_its_spring() {
     for (depth, restitution) in [(0.003, 0.4), (0.002, 0.1), (0.004, 0.8)] {
@@ -73,7 +73,9 @@ fn a_disc_on_a_slide_is_driven_by_the_force_of_its_spring() {
             let mut simulation = load(&text, method);
             simulation.run_to_end().unwrap();
             let x = simulation.bodies().position[1].x;
-            let allowed = if method.is_some() { 1e-6 } else { simulation.clock().dt / 0.05 } * exact;
+            // The spring is drawn to `mu N/k_t` first, at 3 m/s; springs along the surface have 0.8 of the stiffness.
+            let drawn = 0.5 * depth / 0.8 / 3.0;
+            let allowed = if method.is_some() { 1e-6 } else { (simulation.clock().dt + drawn) / 0.05 } * exact;
             assert!((x - exact).abs() <= allowed, "{depth} m, e = {restitution}, {method:?}: {x} instead of {exact}");
         }
     }

@@ -9,6 +9,7 @@ mod defects;
 mod draw;
 mod fast_sensors;
 mod first_steps;
+mod friction_cones;
 mod impact;
 mod indeterminate;
 mod landings;

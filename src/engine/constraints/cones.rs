@@ -44,12 +44,17 @@ impl Rows {
         let (mut given, mut refused): (Vec<AtBound>, Vec<usize>) = (Vec::new(), Vec::new());
         while let Some(next) = self.farthest_beyond(&given, &refused) {
             given.push(next);
-            match self.solved_beside(&given, bodies) {
-                Some(answer) => self.set_answer(answer),
-                None => {
-                    given.pop();
-                    refused.push(next.row);
-                }
+            // At its bound it is nearly held anyway. Without any force it tells whether others hold it.
+            let without = Cone { coefficient: 0.0, ..next.cone };
+            let probe: Vec<AtBound> =
+                given[..given.len() - 1].iter().copied().chain([AtBound { cone: without, ..next }]).collect();
+            let (_, held) = self.solved_beside(&probe, bodies);
+            if held {
+                let (answer, _) = self.solved_beside(&given, bodies);
+                self.set_answer(answer);
+            } else {
+                given.pop();
+                refused.push(next.row);
             }
         }
     }
@@ -73,8 +78,8 @@ impl Rows {
         cone.coefficient * force.max(0.0)
     }
 
-    /// The forces of all rows, of which some give their bounds. `None` if the others do not hold those.
-    fn solved_beside(&self, given: &[AtBound], bodies: &Bodies) -> Option<Vec<f64>> {
+    /// The forces of all rows, of which some give their bounds, and whether the others hold those.
+    fn solved_beside(&self, given: &[AtBound], bodies: &Bodies) -> (Vec<f64>, bool) {
         let mut others = Self::default();
         let is_given = |row: usize| given.iter().any(|other| other.row == row);
         let kept: Vec<usize> = (0..self.len()).filter(|row| !is_given(*row)).collect();
@@ -103,13 +108,12 @@ impl Rows {
         let holds = |other: &AtBound| {
             let row = self.row(other.row);
             let own = row.acceleration(bodies) + beside(row);
-            let terms = others.all().iter().enumerate().map(|(index, of)| row.response(of, bodies) * others.force(index));
+            let terms =
+                others.all().iter().enumerate().map(|(index, of)| row.response(of, bodies) * others.force(index));
             let (sum, size) = terms.fold((own, own.abs()), |(sum, size), term| (sum + term, size + term.abs()));
             sum.abs() <= HELD * size
         };
-        if !given.iter().all(holds) {
-            return None;
-        }
+        let held = given.iter().all(holds);
         let mut answer = vec![0.0; self.len()];
         kept.iter().enumerate().for_each(|(index, row)| answer[*row] = others.force(index));
         for other in given {
@@ -119,7 +123,7 @@ impl Rows {
             };
             answer[other.row] = other.sign * (other.cone.coefficient * force.max(0.0));
         }
-        Some(answer)
+        (answer, held)
     }
 }
 

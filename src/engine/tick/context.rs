@@ -167,12 +167,14 @@ impl Tick<'_> {
     /// Lets forces and contacts choose their modes from `begin` to `end`.
     pub fn choose_modes(&mut self, begin: f64, end: f64) {
         let bodies = self.packed();
+        let mut jumped = false;
         if !bodies.prescribed.motions.is_empty() {
             let middle = 0.5 * (begin + end);
             let before = std::mem::replace(&mut bodies.prescribed.middle, middle);
             // On another piece of a path what rides on it has other forces from its first moment on.
             let passed = bodies.prescribed.next_point(before) < middle;
-            if passed && self.mode.is_staged() {
+            jumped = passed && self.mode.is_staged();
+            if jumped {
                 self.evaluate_stage(begin);
             }
         }
@@ -186,9 +188,14 @@ impl Tick<'_> {
             }
             self.state.take_blows(begin);
             // Forces of held contacts depend on all other forces.
-            if self.state.evaluation.stale && self.mode.is_staged() {
+            let stale = self.state.evaluation.stale && self.mode.is_staged();
+            if stale {
                 self.evaluate_stage(begin);
+            }
+            if stale || jumped {
+                // Modes that cannot last under the new forces end here: a step finds only those that end within it.
                 self.settle();
+                self.tidy(begin);
             } else if self.state.evaluation.other_rows {
                 // No time has passed since: histories stay as they are.
                 self.packed().pose();
@@ -266,14 +273,19 @@ impl Tick<'_> {
             self.evaluate_stage(time);
             self.settle();
         }
+        self.tidy(time);
+        if let Some(row) = self.state.rows.pulling() {
+            let body = row.sides.iter().flatten().map(|side| side.body).rfind(|body| self.state.bodies.dynamic[*body]);
+            self.state.end_run(body.unwrap_or_default(), FailureKind::Pulls);
+        }
+    }
+
+    /// Lets models book their modes that have changed, and stop the bodies that these hold.
+    fn tidy(&mut self, time: f64) {
         let mut changed = false;
         self.state.each_with_events(|model, state| changed |= model.tidy(state));
         if changed {
             self.evaluate_stage(time);
-        }
-        if let Some(row) = self.state.rows.pulling() {
-            let body = row.sides.iter().flatten().map(|side| side.body).rfind(|body| self.state.bodies.dynamic[*body]);
-            self.state.end_run(body.unwrap_or_default(), FailureKind::Pulls);
         }
     }
 

@@ -34,7 +34,7 @@ const BALANCED: f64 = 1e-12;
 const NEARLY: f64 = 1e-7;
 
 /// Friction bears this share of its cone at most. The rest keeps rounding of later forces inside the cone.
-const OF_CONE: f64 = 1.0 - 1e-6;
+const OF_CONE: f64 = 1.0 - 1e-3;
 
 /// Overlaps that differ by less than this share bear the same load.
 const SAME: f64 = 1e-9;

@@ -137,8 +137,19 @@ impl Choice<'_> {
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
     fn wake_touched(&mut self, pairs: &CandidatePairs) {
         let PenaltyContacts { atoms, surfaces, rest, .. } = &mut *self.contacts;
+        if rest.is_empty() {
+            return;
+        }
+        // A support that starts pushes no body at rest: forces that hold stay as they are.
+        let (bodies, dt) = (&*self.sink.bodies, self.dt);
+        let stands = |velocity: DVec2, spin: f64| velocity == DVec2::ZERO && spin == 0.0;
+        let starts = |body: usize, bodies: &Bodies| {
+            let ahead = bodies.prescribed.ahead(body, dt).is_some_and(|end| !stands(end.velocity, end.spin));
+            ahead && stands(bodies.velocity[body], bodies.spin[body])
+        };
+        let some_start = bodies.prescribed.motions.iter().any(|(body, _)| starts(*body, bodies));
         // A body that was pushed has woken by that.
-        let mut woke = !rest.is_empty() && std::mem::take(&mut rest.woke);
+        let mut woke = std::mem::take(&mut rest.woke) || some_start;
         if !woke {
             return;
         }
@@ -149,7 +160,7 @@ impl Choice<'_> {
             (bodies.atom_body(a as usize), bodies.atom_body(b as usize))
         };
         let moves = |body: usize, rest: &Rest| {
-            let still = bodies.velocity[body] == DVec2::ZERO && bodies.spin[body] == 0.0;
+            let still = stands(bodies.velocity[body], bodies.spin[body]) && !(some_start && starts(body, bodies));
             !still || bodies.dynamic[body] && !rest.has(body)
         };
         while woke {

@@ -11,7 +11,7 @@ use crate::world::Bodies;
 /// A share of velocities that counts as rounding.
 const ROUNDING: f64 = 1e-12;
 
-/// Sides stand that accelerate by at most this share of the acceleration by the spring alone: rounding of forces that balance.
+/// Sides stand that accelerate by at most this share of the acceleration by the spring alone. Forces that balance round so.
 const STANDS: f64 = 1e-9;
 
 /// Holds the contacts whose sides neither move nor accelerate along the normal. Returns whether there were any.
