@@ -136,7 +136,7 @@ mod tests {
     use glam::DVec2;
 
     /// A block of 1 kg on two corners at x = -1 and 1, its centre at a height of 0.5. It is pressed down with 10 N at `x`, and pulled
-    /// with `pull` newtons along the floor. Springs of friction would bear half of the pull each.
+    /// with `pull` newtons at the height of the floor. Springs of friction would bear half of the pull each.
     fn block(x: f64, pull: f64) -> (Rows, Bodies) {
         let mut bodies = Bodies {
             entity: vec![Entity::PLACEHOLDER],
@@ -144,7 +144,7 @@ mod tests {
             mass: vec![1.0],
             inertia: vec![1.0],
             force: vec![DVec2::new(pull, -10.0)],
-            torque: vec![-10.0 * x - 0.5 * pull],
+            torque: vec![-10.0 * x + 0.5 * pull],
             ..Bodies::default()
         };
         bodies.velocity.push(DVec2::ZERO);

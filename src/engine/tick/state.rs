@@ -324,7 +324,7 @@ impl State {
     }
 
     /// Whether systems of users add forces, whose course in time is unknown.
-    pub(crate) fn has_force_systems(&self) -> bool {
+    pub fn has_force_systems(&self) -> bool {
         self.force_systems > 0
     }
 

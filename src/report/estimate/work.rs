@@ -18,7 +18,8 @@ const READING: f64 = 8.0;
 
 /// A finer run may take so many times the expected evaluations.
 const EXCESS: f64 = 4.0;
-/// A finer run may take so many seconds, and this share of the time of the first run. They bound models that count no work.
+/// A finer run may take so many seconds, and this share of the time of the first run, if systems of users give forces. Their work
+/// has no count.
 const SECONDS: f64 = 5.0;
 const SHARE_OF_TIME: f64 = 0.5;
 /// Parts of a run between which it is seen whether it takes too long.
@@ -54,15 +55,16 @@ fn part(work: f64, reading: f64, times: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     evaluations: f64,
-    time: Duration,
+    time: Option<Duration>,
 }
 
 impl Patience {
     /// For a run that repeats a part of the first, with steps shorter by the factor `finer`.
     pub fn of(first: &Simulation, part: f64, finer: f64) -> Self {
         let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
+        let time = first.state().has_force_systems().then(|| Duration::from_secs_f64(seconds));
         let evaluations = EXCESS * (finer * part * evaluations(first) + FREE / per_evaluation(first));
-        Self { evaluations, time: Duration::from_secs_f64(seconds) }
+        Self { evaluations, time }
     }
 }
 
@@ -81,7 +83,8 @@ pub(super) fn run_to_tick(
     while failure.is_none() && simulation.clock().ticks < until {
         let done = simulation.clock().ticks as f64 / until as f64;
         let foretold = evaluations(simulation) / if done > TELLS { done } else { 1.0 };
-        let is_over = |most: Patience| foretold > most.evaluations || begin.elapsed() > most.time;
+        let is_over =
+            |most: Patience| foretold > most.evaluations || most.time.is_some_and(|time| begin.elapsed() > time);
         if patience.is_some_and(is_over) {
             return Err(TooLong);
         }

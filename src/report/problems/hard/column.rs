@@ -48,7 +48,7 @@ pub fn scene(discs: &[(f64, f64, f64)], rest: &str, tick: f64) -> String {
     }
     format!(
         "Scene(format: 1, clock: (duration: 1000, tick: {tick:?}, method: VelocityVerlet), gravity: (0, -9.81), {rest}
-        walls: [
+        contacts: Penalty(start: AsPlaced), walls: [
             (name: \"floor\", left: (1, 0), right: (0, 0), material: \"smooth\"),
             (name: \"left\", left: (-0.6, 0), right: (-0.6, 1), material: \"smooth\"),
             (name: \"right\", left: (0.6, 1), right: (0.6, 0), material: \"smooth\"),

@@ -45,7 +45,7 @@ pub fn stack(tick: f64) -> String {
     }
     format!(
         "Scene(format: 1, clock: (duration: 1000, tick: {tick:?}, method: VelocityVerlet), gravity: (0, -9.81),
-        materials: {{ \"wood\": (stiffness: 2e6, friction: 0.6, inelasticity: 0.3) }},
+        contacts: Penalty(start: AsPlaced), materials: {{ \"wood\": (stiffness: 2e6, friction: 0.6, inelasticity: 0.3) }},
         walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"wood\")], bodies: [{bodies}])"
     )
 }
@@ -57,7 +57,7 @@ pub fn wedge(tick: f64) -> String {
     let height = radius / sin;
     format!(
         "Scene(format: 1, clock: (duration: 1000, tick: {tick:?}, method: VelocityVerlet), gravity: (0, -9.81),
-        materials: {{ \"smooth\": (stiffness: 1e5, inelasticity: 0.3) }},
+        contacts: Penalty(start: AsPlaced), materials: {{ \"smooth\": (stiffness: 1e5, inelasticity: 0.3) }},
         walls: [
             (name: \"left\", left: (0, 0), right: ({:?}, {cos:?}), material: \"smooth\"),
             (name: \"right\", left: ({sin:?}, {cos:?}), right: (0, 0), material: \"smooth\"),
