@@ -247,7 +247,7 @@ fn the_deepest_overlap_and_the_largest_share_are_of_different_pairs() {
         for [first, second] in [[big, small], [small, big]] {
             let text = format!(
                 "Scene(format: 1, clock: (duration: 1, tick: \"0.1 ms\", method: VelocityVerlet), gravity: (0, -10),
-                 materials: {{\"m\": (stiffness: 1e4)}}, walls: [{walls}], bodies: [{first}, {second}{posts}], sensors: [Overlap()])"
+                 contacts: Penalty(start: AsPlaced), materials: {{\"m\": (stiffness: 1e4)}}, walls: [{walls}], bodies: [{first}, {second}{posts}], sensors: [Overlap()])"
             );
             let mut simulation =
                 Simulation::load(&Source::new("overlaps.ron", text)).unwrap_or_else(|errors| panic!("{errors}"));

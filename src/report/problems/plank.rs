@@ -67,7 +67,7 @@ fn scene(setting: &ProblemSetting, duration: f64) -> String {
         );
     }
     format!(
-        "Scene({clock}, gravity: (0, -{GRAVITY:?}), contacts: Penalty(normal: Dashpot, tangential: None),
+        "Scene({clock}, gravity: (0, -{GRAVITY:?}), contacts: Penalty(normal: Dashpot, tangential: None, start: AsPlaced),
         materials: {{ \"soft\": (stiffness: {STIFFNESS:?}, restitution: 0.2), \"hard\": (stiffness: 1e300, restitution: 0.2) }},
         bodies: [(name: \"plank\", at: (0, 0), datum: Origin, material: \"soft\",
                   shape: Compound([Rectangle(at: ({middle:?}, 0), width: 2.6, height: 0.04, mass: {board:?}, collides: false), {feet}])),
