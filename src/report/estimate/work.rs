@@ -18,8 +18,8 @@ const READING: f64 = 8.0;
 
 /// A finer run may take so many times the expected evaluations.
 const EXCESS: f64 = 4.0;
-/// A finer run may take so many seconds, and this share of the time of the first run, if systems of users give forces. Their work
-/// has no count.
+/// A finer run may take so many seconds, and this share of the time of the first run. That holds if systems of users give forces,
+/// whose work has no count.
 const SECONDS: f64 = 5.0;
 const SHARE_OF_TIME: f64 = 0.5;
 /// Parts of a run between which it is seen whether it takes too long.
