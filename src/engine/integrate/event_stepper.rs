@@ -15,6 +15,7 @@ use super::event_free_ticks::EventFreeTicks;
 use super::event_overload::EventOverload;
 use super::interior_events::{Inside, StageValues};
 use super::locate::{Bracket, IndicatorSample, vanished};
+use super::step_bounds::{AFTER_OVERFLOW, MOST_OVERFLOWS, is_finite};
 use super::step_bounds::{longest_among_many, longest_under_loads, rounding_of_time};
 use super::steps::{Divided, OneStep, Start};
 use crate::tick::Flow;
@@ -29,11 +30,6 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// The number of times that a step is repeated with lists of a larger reach. Each time the reach is four times as
 /// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
-
-/// The number of times that a step whose trial overflows is shortened, and the share that remains each time. Forces without a
-/// bound at the beginning of the step keep overflowing, and the run ends with an error.
-const MOST_OVERFLOWS: u32 = 30;
-const AFTER_OVERFLOW: f64 = 0.25;
 
 /// Steps between two looks at how far they lead.
 const STEPS_BETWEEN_LOOKS: u64 = 4096;
@@ -223,7 +219,8 @@ impl EventStepper {
         let mut made = self.attempt(flow, from, until);
         for _ in 0..MOST_OVERFLOWS {
             let shorter = from + AFTER_OVERFLOW * (until - from);
-            if made.is_none() || shorter <= from || self.work.trial.iter().all(|value| value.is_finite()) {
+            let overflows = !is_finite(&self.work.trial) && is_finite(&self.state);
+            if made.is_none() || shorter <= from || !overflows {
                 break;
             }
             // The modes may end long before: forces of frozen modes need not stay bounded behind their end.

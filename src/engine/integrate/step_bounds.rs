@@ -12,6 +12,16 @@ const MOST_RADII: f64 = 8.0;
 /// a load, so no error of the step tells of it.
 const LOAD_SWING: f64 = 1.0;
 
+/// The number of times that a step whose trial overflows is shortened, and the share that remains each time. Forces without a
+/// bound at the beginning of the step keep overflowing, and the run ends with an error.
+pub(super) const MOST_OVERFLOWS: u32 = 30;
+pub(super) const AFTER_OVERFLOW: f64 = 0.25;
+
+/// Whether all numbers of a state are finite.
+pub(super) fn is_finite(state: &[f64]) -> bool {
+    state.iter().all(|value| value.is_finite())
+}
+
 /// The longest sensible step in s in a scene of many bodies that may collide.
 pub(super) fn longest_among_many(flow: &WorldFlow) -> f64 {
     let bodies = &flow.tick.state().bodies;

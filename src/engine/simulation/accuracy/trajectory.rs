@@ -73,6 +73,9 @@ pub struct Trajectory {
 /// The least distance for errors of a body, as a share of that of the farthest body.
 const LEAST_SHARE: f64 = 1e-2;
 
+/// Bodies stand that go no farther than this share of their distance from the origin. Rounding of places over many steps is as much.
+const STANDS: f64 = 1e3 * f64::EPSILON;
+
 /// How far two runs are apart.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct TrajectoryDistance {
@@ -269,10 +272,15 @@ impl Trajectory {
         places.fold(0.0, f64::max)
     }
 
-    /// The greatest distance and speed of each body, as in [`Trajectory::sizes`].
+    /// The greatest distance and speed of each body, as in [`Trajectory::sizes`]. If all bodies stand, they are 1 m and 1 m/s.
     pub fn measures(&self) -> Vec<(f64, f64)> {
         let (farthest, fastest) = self.sizes();
         let Some(first) = self.moments.first() else { return Vec::new() };
+        let reach =
+            first.iter().zip(&self.extents).map(|(pose, extent)| pose.position.length() + extent).fold(0.0, f64::max);
+        if farthest <= STANDS * reach {
+            return vec![(1.0, 1.0); first.len()];
+        }
         let least = |size: f64, most: f64| if most > 0.0 { size.max(LEAST_SHARE * most) } else { 1.0 };
         let of = |(body, first): (usize, &Pose)| {
             let extent = self.extents[body];
