@@ -10,7 +10,7 @@ use serde::{Deserialize, Serialize};
 
 /// A row that the others hold accelerates by at most this share of all accelerations that cancel there. Dependent rows leave
 /// 1e-10, and a row that is free leaves all of it.
-const HELD: f64 = 1e-6;
+pub const HOLDS: f64 = 1e-6;
 
 /// The bound of friction along the surface.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -111,7 +111,7 @@ impl Rows {
             let terms =
                 others.all().iter().enumerate().map(|(index, of)| row.response(of, bodies) * others.force(index));
             let (sum, size) = terms.fold((own, own.abs()), |(sum, size), term| (sum + term, size + term.abs()));
-            sum.abs() <= HELD * size
+            sum.abs() <= HOLDS * size
         };
         let held = given.iter().all(holds);
         let mut answer = vec![0.0; self.len()];

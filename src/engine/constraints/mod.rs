@@ -28,7 +28,7 @@ mod rows;
 mod solver;
 pub mod spring_network;
 
-pub use cones::{Cone, ConePressure};
+pub use cones::{Cone, ConePressure, HOLDS};
 pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;

@@ -28,7 +28,6 @@ const DRAWN: u64 = 300;
 /// The promise of estimates: one statement in a hundred is more than three times too small. One in a thousand is more
 /// than ten times too small. The verdict trusts none of these. Of so few statements, single ones are allowed.
 #[test]
-#[ignore = "tolerances of single scenes take longer than the tests may"]
 fn fifty_scenes_of_chance_agree_in_all_ways() {
     let language = Language::standard();
     let (mut statements, mut broken, mut long, mut runs) = (Vec::new(), Vec::new(), 0, 0);

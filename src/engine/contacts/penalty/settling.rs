@@ -6,12 +6,9 @@ use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{Base, View, standing};
+use crate::constraints::HOLDS;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
-
-/// A held contact accelerates by at most this share of the forces on it. Forces of dependent rows leave 1e-10; rows
-/// that contradict each other leave nearly all of it.
-const HOLDS: f64 = 1e-6;
 
 /// The mode of a contact that is not held although it should be. Two contacts at one point with different curvatures
 /// cannot both stay.
