@@ -38,7 +38,7 @@ impl Model for Fault {
     }
 }
 
-/// A box that lies on the floor under a load, and a body that touches nothing. The stated error of places in m, and the
+/// A box that lies on the floor under a load, and two bodies that touch nothing. The stated error of places in m, and the
 /// verdict.
 fn stated(load: &str, clock: &str) -> (f64, String) {
     let scene = format!(
@@ -46,7 +46,8 @@ fn stated(load: &str, clock: &str) -> (f64, String) {
             materials: {{ \"m\": (stiffness: 1e4, friction: 0.5, restitution: 0.2) }},
             walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\")],
             bodies: [(name: \"box\", at: (0, 0.1), material: \"m\", mass: 1, shape: Rectangle(width: 0.2, height: 0.2)),
-                     (name: \"ghost\", at: (0, 9), collides: false, atoms: Disc(radius: 0.1, mass: 1))],
+                     (name: \"ghost\", at: (0, 9), collides: false, atoms: Disc(radius: 0.1, mass: 1)),
+                     (name: \"wheel\", at: (3, 9), collides: false, atoms: Disc(radius: 0.1, mass: 1))],
             forces: [{load}])"
     );
     let source = Source::new("fault.ron", scene);
@@ -73,6 +74,9 @@ fn a_fault_of_one_kind_of_methods_is_stated_under_loads_that_change() {
     for load in [
         "Drive(of: \"box\", force: (1, 0), course: Sine(frequency: 2))",
         "Thrust(of: \"box\", force: (1, 0), from: 0.3)",
+        // At its speed the motor gives less than its limit.
+        "], joints: [Revolute(name: \"axle\", a: World, anchor_a: (3, 9), b: \"wheel\")],
+        controllers: [Motor(name: \"drive\", of: \"axle\", speed: 5, limit: 0.05)",
     ] {
         for clock in CLOCKS {
             let (error, verdict) = stated(load, clock);

@@ -41,14 +41,18 @@ pub struct Elsewhere {
     pub tick: f64,
 }
 
-/// Whether loads on contacts, limits or frictions change by the clock, or bodies rest on things that move.
+/// Whether loads on contacts, limits or frictions change by the clock, or bodies rest on things that move. Loads on contacts also
+/// change as limits, frictions and motors of joints switch.
 pub(super) fn loads_change(simulation: &Simulation) -> bool {
     let state = simulation.resource::<State>();
     let holds = |model: &dyn Model| model.contact_law().is_some() || model.has_modes();
     let changes = |model: &dyn Model| model.contact_law().is_none() && (model.has_edges() || model.rhythm().is_some());
     let bodies = state.bodies();
     let supports = !bodies.prescribed.motions.is_empty() || bodies.belts.iter().any(|belt| belt.length() > 0.0);
-    state.models().any(holds) && (supports || state.models().any(changes))
+    let contacts = state.models().any(|model| model.contact_law().is_some());
+    let switches = |model: &dyn Model| model.contact_law().is_none() && model.has_rows() && model.has_modes();
+    let changing = supports || state.models().any(changes) || contacts && state.models().any(switches);
+    state.models().any(holds) && changing
 }
 
 /// Whether contacts, limits or frictions carried such loads in a run.
