@@ -8,6 +8,7 @@ mod defaults;
 mod defects;
 mod draw;
 mod fast_sensors;
+mod few_contacts;
 mod first_steps;
 mod friction_cones;
 mod impact;

@@ -66,6 +66,8 @@ pub struct PenaltyContacts {
     pub(super) before: Vec<[Option<Slider>; 2]>,
     /// Contacts whose friction stopped sliding at the last event, and is held for a first try.
     pub(super) stopped: Vec<u32>,
+    /// Contacts whose held force has left its bounds at the last event, until the next step.
+    pub(super) released: Vec<u32>,
     /// Energy in J of the tangential springs that slip, at the beginning of the step.
     pub(super) slid: f64,
     /// Contacts that begin in equilibrium, until the first evaluation.
@@ -94,6 +96,7 @@ impl Default for PenaltyContacts {
             held_before: None,
             before: Vec::new(),
             stopped: Vec::new(),
+            released: Vec::new(),
             slid: 0.0,
             begun: Vec::new(),
         }
@@ -133,6 +136,7 @@ pub(super) fn sides_at_surface(bodies: &Bodies, pair: SurfacePair) -> (PairSide,
 /// Gives every pair of a new list its slot, with its history if it had one.
 fn carry_history<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) {
     contacts.version = pairs.version;
+    contacts.released.clear();
     let same = std::mem::replace(&mut contacts.generation, bodies.generation) == bodies.generation;
     let PenaltyContacts { laws, materials, settings, atoms, surfaces, .. } = contacts;
     atoms.carry(&pairs.atoms_before, same, |index| {

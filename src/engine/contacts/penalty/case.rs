@@ -10,7 +10,16 @@ use crate::constraints::islands::IslandLink;
 use crate::contacts::geometry::{ContactSides, SideA};
 use crate::world::Bodies;
 
+/// Units in the last place by which a place and the overlap that follows from it may err.
+const UNITS: f64 = 4.0;
+
 impl ContactSides {
+    /// Normal force in newtons that rounding of places makes.
+    pub(super) fn noise(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
+        let place = bodies.position[self.b.body] + self.b.arm;
+        UNITS * f64::EPSILON * place.abs().max_element() * law.stiffness
+    }
+
     /// `force` acts on side B, the opposite on side A, where they touch.
     #[inline]
     pub(super) fn push(&self, sink: &mut Sink, law: &PairLaw, overlap: f64, force: DVec2) {

@@ -26,6 +26,8 @@ const UNKNOWN: f64 = f64::NAN;
 #[derive(Clone, Copy)]
 pub(super) struct Pressure {
     pub force: f64,
+    /// The error in N that rounding of places makes.
+    noise: f64,
     pub rate: f64,
     pub second_rate: f64,
     /// The square of the angular frequency with which it swings, in 1/s2.
@@ -45,13 +47,15 @@ impl Pressure {
     ) -> Self {
         let force = contact.normal_force;
         if contact.mode == Mode::Hold {
-            return Self { force, rate: UNKNOWN, second_rate: UNKNOWN, swings: 0.0, acceleration: 0.0 };
+            let (rate, second_rate) = (UNKNOWN, UNKNOWN);
+            return Self { force, noise: 0.0, rate, second_rate, swings: 0.0, acceleration: 0.0 };
         }
         let approach = geometry.approach(bodies);
         let (stiffness, damping) = N::response(law, approach.mobility);
         let damped = damping * approach.mobility;
         Self {
             force,
+            noise: geometry.pair.noise(law, bodies),
             rate: N::force_rate(law, contact.mode, approach, change),
             second_rate: N::force_second_rate(law, contact.mode, approach, change),
             swings: stiffness * approach.mobility + damped * damped,
@@ -207,6 +211,8 @@ pub(super) fn tell_slider(
                 say(PhaseEnd::Stops, Indicator { rounding, ..Indicator::of_value(value, Bend::Fitted) });
             }
             let (known, swings) = if grip == Grip::Hold { (UNKNOWN, 0.0) } else { (law.stiffness, squared.sqrt()) };
+            // A spring stretches below the last digit of places, where an overlap grows in jumps.
+            let noise = if grip == Grip::Stick { law.friction_static * pressure.noise } else { 0.0 };
             let force = [slider.force(law), known * motion.velocity, known * motion.rate];
             let limit = [pressure.force, pressure.rate, pressure.second_rate].map(|rate| law.friction_static * rate);
             for (positive, sign) in [(true, -1.0), (false, 1.0)] {
@@ -217,7 +223,7 @@ pub(super) fn tell_slider(
                     value = value.max(limit[0]);
                 }
                 // A spring that stopped has the force of the cone, and at first the same rate.
-                let rounding = ROUNDING * (force[0].abs() + limit[0].abs());
+                let rounding = ROUNDING * (force[0].abs() + limit[0].abs()) + noise;
                 say(PhaseEnd::Gives(positive), Indicator { rounding, swings, ..Indicator::new(value, slope, bend) });
             }
         }

@@ -325,14 +325,13 @@ impl Choice<'_> {
     fn seen<N: NormalForce>(&self, case: &ContactSides, ends: (usize, usize)) -> RestContact {
         let (contact, law) = self.known(case);
         let rolling = self.rolls(case, law).unwrap_or_default();
-        let place = self.sink.bodies.position[case.b.body] + case.b.arm;
         RestContact {
             ends,
             arms: case.arms(law.shares(), contact.overlap),
             normal: case.normal,
             band: N::band(law, contact.overlap, contact.normal_force),
             normal_force: contact.normal_force,
-            noise: 4.0 * f64::EPSILON * place.abs().max_element() * law.stiffness,
+            noise: case.noise(law, self.sink.bodies),
             engaged: contact.mode == Mode::Hold,
             parts: contact.mode == Mode::Unloading,
             tangential: contact.tangential.drawn(&law.tangential()),

@@ -10,8 +10,8 @@ use crate::constraints::HOLDS;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 
-/// The mode of a contact that is not held although it should be. Two contacts at one point with different curvatures
-/// cannot both stay.
+/// The mode for the acceleration of a contact that stands. `None`: it stays at rest. Two contacts at one point with different
+/// curvatures cannot both stay.
 fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<Mode> {
     let rate = geometry.parting_rate(law.shares(), bodies);
     let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
@@ -33,8 +33,10 @@ impl View<'_> {
         }
         let corrected = self.settle_held_friction::<N>()
             || self.settle_normals::<N>()
+            || self.settle_unheld()
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)
-            || self.settle_friction::<N>(|grip| grip == Grip::Hold);
+            || self.settle_friction::<N>(|grip| grip == Grip::Hold)
+            || self.hold_again();
         if !corrected {
             self.contacts.slid = self.sliding_energy();
         }
@@ -69,49 +71,88 @@ impl View<'_> {
         contact.mode == Mode::Hold && (contact.normal_force < least || contact.normal_force > greatest)
     }
 
-    /// Lets go of contacts that are held by forces out of their bounds, and of those that no force holds. Says whether there were any.
+    /// Lets go of contacts that are held by forces out of their bounds. Says whether there were any.
     fn settle_normals<N: NormalForce>(&mut self) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
+        let mut released = std::mem::take(&mut self.contacts.released);
         for index in 0..self.len() {
-            let before = springs.get(index).copied().unwrap_or_default();
-            let (geometry, bodies) = (self.look(index), self.bodies);
-            let (mut contact, law, mut roller) = self.whole(index, &geometry);
-            if contact.mode != Mode::Hold {
+            let (mut contact, law) = self.contact(index);
+            let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
+            let (is_below, is_above) = (contact.normal_force < least, contact.normal_force > greatest);
+            if contact.mode != Mode::Hold || !(is_below || is_above) {
                 continue;
             }
-            let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-            if contact.normal_force < least || contact.normal_force > greatest {
-                let (base, is_below) = (Base { force: least, rate: 0.0 }, contact.normal_force < least);
-                // Its motion may come from springs that were held for a first try. It may also come from springs that
-                // stick under no force within the bounds.
-                let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
-                    let below = is_below && slider.grip == Grip::Stick;
-                    slider.swing_back(before) || below && slider.settle_force(law, base, None)
-                };
-                let rolls = roller.as_mut().is_some_and(|(slider, law)| gives(slider, law, before[1]));
-                let slider_law = law.tangential();
-                if slider_law.acts() && gives(&mut contact.tangential, &slider_law, before[0]) || rolls {
-                    corrected = true;
-                    continue;
-                }
-                contact.mode = if contact.normal_force < least { Mode::Unloading } else { Mode::Loading };
-                contact.come_loose(law, &geometry);
-                if let Some((slider, law)) = &mut roller {
-                    rolling_stages::come_loose((slider, *law), &contact, &geometry);
-                }
-                corrected = true;
-            } else if let Some(mode) = moves_on(law, &geometry, bodies) {
-                contact.mode = mode;
-                contact.come_loose(law, &geometry);
-                if let Some((slider, law)) = &mut roller {
-                    rolling_stages::come_loose((slider, *law), &contact, &geometry);
-                }
+            corrected = true;
+            let before = springs.get(index).copied().unwrap_or_default();
+            let base = Base { force: least, rate: 0.0 };
+            // Its motion may come from springs that were held for a first try. It may also come from springs that
+            // stick under no force within the bounds.
+            let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
+                let below = is_below && slider.grip == Grip::Stick;
+                slider.swing_back(before) || below && slider.settle_force(law, base, None)
+            };
+            let slider_law = law.tangential();
+            let gave = slider_law.acts() && gives(&mut contact.tangential, &slider_law, before[0]);
+            drop(contact);
+            let geometry = self.look(index);
+            let roller = self.whole(index, &geometry).2;
+            let rolled = roller.is_some_and(|(slider, law)| gives(slider, &law, before[1]));
+            if gave || rolled {
+                continue;
+            }
+            self.release(index, if is_below { Mode::Unloading } else { Mode::Loading });
+            released.push(index as u32);
+        }
+        (self.contacts.before, self.contacts.released) = (springs, released);
+        corrected
+    }
+
+    /// A held contact goes on in a mode.
+    fn release(&mut self, index: usize, mode: Mode) {
+        let geometry = self.look(index);
+        let (mut contact, law, roller) = self.whole(index, &geometry);
+        contact.mode = mode;
+        contact.come_loose(law, &geometry);
+        if let Some((slider, law)) = roller {
+            rolling_stages::come_loose((slider, law), &contact, &geometry);
+        }
+    }
+
+    /// Lets go of contacts that no force holds, once all that hold are within their bounds. Says whether there were any.
+    fn settle_unheld(&mut self) -> bool {
+        let mut corrected = false;
+        for index in 0..self.len() {
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (contact, law) = self.contact(index);
+            let mode = Some(contact.mode).filter(|mode| *mode == Mode::Hold);
+            let mode = mode.and_then(|_| moves_on(law, &geometry, bodies));
+            drop(contact);
+            if let Some(mode) = mode {
+                self.release(index, mode);
                 corrected = true;
             }
         }
-        self.contacts.before = springs;
         corrected
+    }
+
+    /// Holds the first contact again that was let go and is drawn back by others that were. So the contacts of a body find their
+    /// modes together (principal pivoting by the least index: Murty 1974). Says whether there was any.
+    fn hold_again(&mut self) -> bool {
+        let mut released = std::mem::take(&mut self.contacts.released);
+        released.sort_unstable();
+        let drawn_back = |index: &&u32| {
+            let (geometry, bodies) = (self.look(**index as usize), self.bodies);
+            let (contact, law) = self.contact(**index as usize);
+            let moves = matches!(contact.mode, Mode::Loading | Mode::Unloading);
+            moves && moves_on(law, &geometry, bodies).is_some_and(|mode| mode != contact.mode)
+        };
+        let first = released.iter().find(drawn_back).copied();
+        if let Some(index) = first {
+            self.contact(index as usize).0.mode = Mode::Hold;
+        }
+        self.contacts.released = released;
+        first.is_some()
     }
 
     /// Ends phases of friction whose normal force has jumped. It jumps at the turn from loading to unloading, or as a

@@ -1,5 +1,7 @@
 //! Contacts in stages of a step that have come to stand without an event. Both sides stop together, as under a press at the end of its
 //! path. Their modes end at roots of velocities, and a velocity that stays zero has none. They are held before the next step.
+//!
+//! A contact that was just released stands too, under the force at the end of its band. Held again, it would end at the same moment.
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
@@ -19,7 +21,8 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
     if !N::SET_VALUED {
         return false;
     }
-    let PenaltyContacts { laws, atoms, surfaces, .. } = contacts;
+    let PenaltyContacts { laws, atoms, surfaces, released, .. } = contacts;
+    let released = std::mem::take(released);
     let moves = |contact: &Contact| matches!(contact.mode, Mode::Loading | Mode::Unloading);
     let stands = |contact: &Contact, geometry: &PairGeometry| {
         let law = laws.get(contact.law);
@@ -32,14 +35,16 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
     let mut some = false;
     for (index, &pair) in pairs.atoms.iter().enumerate().take(atoms.len()) {
         let contact = atoms.get(index);
-        if moves(&contact) && stands(&contact, &PairGeometry::atoms(bodies, index, pair)) {
+        let begins = moves(&contact) && !released.contains(&(index as u32));
+        if begins && stands(&contact, &PairGeometry::atoms(bodies, index, pair)) {
             atoms.edit(index).mode = Mode::Hold;
             some = true;
         }
     }
     for (index, &pair) in pairs.surfaces.iter().enumerate().take(surfaces.len()) {
         let contact = surfaces.get(index);
-        if moves(&contact) && stands(&contact, &PairGeometry::surface(bodies, index, pair)) {
+        let begins = moves(&contact) && !released.contains(&((atoms.len() + index) as u32));
+        if begins && stands(&contact, &PairGeometry::surface(bodies, index, pair)) {
             surfaces.edit(index).mode = Mode::Hold;
             some = true;
         }

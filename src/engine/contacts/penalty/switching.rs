@@ -165,6 +165,9 @@ impl View<'_> {
         self.note_springs();
         for &index in fired {
             let (pair, what) = self.contacts.told[index];
+            if matches!(what, What::Lower | What::Upper) {
+                self.contacts.released.push(pair);
+            }
             let geometry = self.look(pair as usize);
             let bodies = self.bodies;
             let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
