@@ -1,6 +1,6 @@
-//! Law: if contacts carry loads that change, runs state the faults of one kind of methods. The fault is a force from outside
-//! that acts only in steps with stages. It moves a body of 1 kg by `F t^2/2`. Velocity Verlet and methods
-//! that locate events then differ by that way, and each has to state it.
+//! Law: runs state the faults of one kind of methods. The fault is a force from outside that acts only in steps with stages.
+//! It moves a body of 1 kg by `F t^2/2`. Velocity Verlet and methods that locate events then differ by that way. Velocity
+//! Verlet states it wherever bodies touch, and the others if contacts carry loads that change.
 //!
 //! Tolerance: a hundredth of the way, far above the errors of both methods for a constant force. Not tested: faults in part
 //! of a run, and scenes that only one kind can run.
@@ -87,11 +87,12 @@ fn a_fault_of_one_kind_of_methods_is_stated_under_loads_that_change() {
     }
 }
 
-/// A constant load needs no run of the other kind: its statement is that of finer runs.
+/// Under a constant load, finer runs alone tell the error of methods with located events.
 #[test]
-fn a_constant_load_is_stated_by_runs_of_one_kind() {
+fn a_fault_of_runs_from_tick_to_tick_is_stated_under_a_constant_load() {
     for clock in CLOCKS {
         let (error, verdict) = stated("Torque(of: \"ghost\", value: 0)", clock);
-        assert!(error < 0.01 * WAY, "{clock}: {error:e} stated: {verdict}");
+        let (least, most) = if clock.is_empty() { (0.99 * WAY, 1.01 * WAY) } else { (0.0, 0.01 * WAY) };
+        assert!((least..=most).contains(&error), "{clock}: {error:e} stated: {verdict}");
     }
 }

@@ -2,11 +2,11 @@
 //! methods that locate events share neither steps nor laws of switching. Finer runs of the same kind repeat a fault,
 //! and runs of the other kind show it.
 //!
-//! A run from tick to tick has one twin with located events in place of one with finer ticks. That twin is
-//! of a higher order. So the whole difference is the error of the first run.
+//! Every run from tick to tick has a twin with located events (`twins.rs`).
 //!
 //! A run with located events is far more exact than velocity Verlet, whose error must not become its own. Two runs
-//! from tick to tick tell that error by their difference. Only a larger distance counts.
+//! from tick to tick tell that error by their difference. Only a larger distance counts, and only if a run with finer ticks
+//! confirms it.
 
 use jostle_engine::Simulation;
 use jostle_engine::integrate::{ChosenMethod, Detail, EventTiming, StepPace};
@@ -27,6 +27,8 @@ const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 const LIKE_PHASES: f64 = 10.0;
 /// Beyond this share of the motion, the runs from tick to tick are no measure.
 const USELESS: f64 = 0.1;
+/// The finest run has so many ticks in one of the coarsest. An error that falls with the tick then falls below the bound.
+const FINEST: u32 = 8;
 /// Distances of less than this share of the motion are rounding that contacts magnify.
 const ROUNDING: f64 = 1e-9;
 
@@ -62,13 +64,42 @@ pub(super) fn carried(simulation: &Simulation) -> bool {
     loads_change(simulation) && (touches(simulation) || other_modes())
 }
 
-/// The plan of velocity Verlet with so many ticks in one of the run.
-fn by_ticks(simulation: &Simulation, ticks: u32) -> Option<Plan> {
-    let plan = simulation.plan()?.clone();
-    let tick = plan.tick / f64::from(ticks);
-    let (method, events) = ("VelocityVerlet".to_owned(), EventTiming::PerTick);
-    let (error, warning) = (None, None);
-    Some(Plan { method, tick, pace: StepPace::Even(1), detail: Detail::default(), events, error, warning, ..plan })
+/// Runs by velocity Verlet beside a run with located events.
+struct ByTicks<'a> {
+    simulation: &'a Simulation,
+    scene: &'a Repeated<'a>,
+    /// Evaluations of a run with one tick in one of the first, over those of the first.
+    work: f64,
+    /// The share of the first run that they repeat. 1 takes any time.
+    part: f64,
+    /// The tick of the first run that ends it.
+    until: u64,
+}
+
+impl ByTicks<'_> {
+    /// Whether so many ticks in one of the first run need little work.
+    fn affords(&self, ticks: u32) -> bool {
+        self.part == 1.0 || work::affordable(self.simulation, self.work * f64::from(ticks)) >= self.part
+    }
+
+    /// A run with so many ticks in one of the first. `None`: some laws cannot go from tick to tick, it takes long, or it fails.
+    fn run(&self, ticks: u32, patient: bool) -> Result<Option<Trajectory>, SceneErrors> {
+        let Some(plan) = self.simulation.plan().cloned() else { return Ok(None) };
+        let finer = Finer { ticks, ..Finer::SAME };
+        let tick = plan.tick / f64::from(ticks);
+        let (method, events) = ("VelocityVerlet".to_owned(), EventTiming::PerTick);
+        let (pace, detail, error, warning) = (StepPace::Even(1), Detail::default(), None, None);
+        let plan = Plan { method, tick, pace, detail, events, error, warning, ..plan };
+        let what = format!("by velocity Verlet with a tick of {} s, for its error", number(tick));
+        let Ok(mut other) = self.scene.again(self.simulation, plan, 1.0, &what) else { return Ok(None) };
+        twins::watch_beside(&mut other, self.simulation, finer, self.until);
+        let work = self.work * f64::from(ticks);
+        let patience = (!patient).then(|| Patience::of(self.simulation, self.part, work));
+        let ran = work::run_to_tick(&mut other, finer.tick(self.until), patience, |_| false);
+        // A run from tick to tick misses a force between two ticks, which tells nothing of the first run.
+        let tells = matches!(ran, Ok(None)) && !departs(&other);
+        Ok(tells.then(|| Trajectory::watched(&mut other, None)))
+    }
 }
 
 /// Looks at a run with located events beside two from tick to tick, as far as little work allows.
@@ -86,43 +117,40 @@ pub(super) fn check(
     let state = simulation.resource::<State>();
     let Some(fastest) = state.stability().fastest_foreseen().filter(|_| carried(simulation)) else { return Ok(()) };
     let tick = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * fastest.angular_frequency);
-    let times = (simulation.clock().dt / tick).ceil().clamp(1.0, f64::from(u32::MAX / 4)) as u32;
-    let finer = [times, 2 * times].map(|ticks| Finer { ticks, ..Finer::SAME });
-    let work = 3.0 * f64::from(times) * ticks as f64 / (state.evaluation().count.max(1) as f64);
-    let part = if effort == Effort::Full { 1.0 } else { work::affordable(simulation, work) };
+    let coarse = (simulation.clock().dt / tick).ceil().clamp(1.0, f64::from(u32::MAX / (2 * FINEST))) as u32;
+    let (fine, finest) = (2 * coarse, FINEST * coarse);
+    let work = ticks as f64 / (state.evaluation().count.max(1) as f64);
+    let patient = effort == Effort::Full;
+    let part = if patient { 1.0 } else { work::affordable(simulation, f64::from(coarse + fine) * work) };
     let until = (part * ticks as f64) as u64;
     if !moments(simulation).iter().any(|tick| *tick <= until) {
         return Ok(());
     }
-    let patience = (effort != Effort::Full).then(|| Patience::of(simulation, part, work));
-    let mut runs = Vec::new();
-    for finer in finer {
-        let Some(plan) = by_ticks(simulation, finer.ticks) else { return Ok(()) };
-        let what = format!("by velocity Verlet with a tick of {} s, for its error", number(plan.tick));
-        // Some laws cannot go from tick to tick.
-        let Ok(mut other) = scene.again(simulation, plan, 1.0, &what) else { return Ok(()) };
-        twins::watch_beside(&mut other, simulation, finer, until);
-        match work::run_to_tick(&mut other, finer.tick(until), patience) {
-            // A run from tick to tick misses a force between two ticks, which tells nothing of the first run.
-            Ok(None) if departs(&other) => return Ok(()),
-            Ok(None) => runs.push(Trajectory::watched(&mut other, None)),
-            _ => return Ok(()),
-        }
-    }
-    let [coarse, fine] = &runs[..] else { return Ok(()) };
+    let by_ticks = ByTicks { simulation, scene, work, part, until };
+    let Some(first) = by_ticks.run(coarse, patient)? else { return Ok(()) };
+    let Some(second) = by_ticks.run(fine, patient)? else { return Ok(()) };
     let stated = found.estimate.and_then(|error| error.position.discretisation).unwrap_or_default();
-    let tick = simulation.clock().dt / f64::from(2 * times);
-    let Some((elsewhere, speed)) = elsewhere(run, coarse, fine, stated, tick) else { return Ok(()) };
+    let Some(mut departure) = departure(run, &first, &second, stated) else { return Ok(()) };
+    let mut times = fine;
+    // A fault of ticks that are too coarse falls away with finer ones.
+    if by_ticks.affords(finest)
+        && let Some(third) = by_ticks.run(finest, patient)?
+    {
+        let Some(finer) = self::departure(run, &second, &third, stated) else { return Ok(()) };
+        (departure, times) = (finer, finest);
+    }
+    let Departure { since, distance, speed } = departure;
+    let tick = simulation.clock().dt / f64::from(times);
     found.notes.push(format!(
         "velocity Verlet with a tick of {} s goes elsewhere from t = {} s on, by up to {} m: more than the errors of both",
         number(tick),
-        number(elsewhere.since),
-        rough(elsewhere.distance)
+        number(since),
+        rough(distance)
     ));
-    found.elsewhere = Some(elsewhere);
+    found.elsewhere = Some(Elsewhere { since, distance, tick });
     if let Some(error) = &mut found.estimate {
         let most = |part: &mut Option<f64>, value: f64| *part = Some(part.map_or(value, |old| old.max(value)));
-        most(&mut error.position.discretisation, elsewhere.distance);
+        most(&mut error.position.discretisation, distance);
         most(&mut error.velocity.discretisation, speed);
     }
     Ok(())
@@ -134,26 +162,29 @@ fn departs(simulation: &Simulation) -> bool {
     state.models().any(|model| !model.departures(state, EvaluationMode::Following).is_empty())
 }
 
-/// The departure of the finer of two runs from tick to tick, and the greatest difference of velocities in m/s.
-/// `None`: it goes no farther than errors explain.
-fn elsewhere(
-    run: &Trajectory,
-    coarse: &Trajectory,
-    fine: &Trajectory,
-    stated: f64,
-    tick: f64,
-) -> Option<(Elsewhere, f64)> {
+/// How far two runs are from each other.
+#[derive(Clone, Copy)]
+struct Departure {
+    /// In s.
+    since: f64,
+    /// The greatest distance of places in m, and difference of velocities in m/s.
+    distance: f64,
+    speed: f64,
+}
+
+/// The departure of the finer of two runs from tick to tick. `None`: it goes no farther than errors explain.
+fn departure(run: &Trajectory, coarse: &Trajectory, fine: &Trajectory, stated: f64) -> Option<Departure> {
     let motion = run.sizes().0.max(fine.sizes().0);
-    let (mut own, mut found) = (0.0_f64, None::<(Elsewhere, f64)>);
+    let (mut own, mut found) = (0.0_f64, None::<Departure>);
     for ((since, far, fast), (_, other, _)) in run.errors(fine).zip(coarse.errors(fine)) {
         own = own.max(other);
         if own.is_nan() || own > USELESS * motion {
             break;
         }
         match &mut found {
-            Some((known, speed)) => (known.distance, *speed) = (known.distance.max(far), speed.max(fast)),
+            Some(known) => (known.distance, known.speed) = (known.distance.max(far), known.speed.max(fast)),
             None if far > LIKE_PHASES * own + stated + ROUNDING * motion => {
-                found = Some((Elsewhere { since, distance: far, tick }, fast));
+                found = Some(Departure { since, distance: far, speed: fast });
             }
             None => {}
         }

@@ -5,12 +5,15 @@
 //! half the tick gives it. If forces jump, the error depends on the phase of the jumps in ticks or steps. Two runs may
 //! meet the jumps at the same phase by chance. So two twins are made, and the larger difference counts. A twin with
 //! half the tick meets every second jump at the same end of tick as the first run. So ticks of twins end elsewhere,
-//! except for one in ten of the first run. If contacts carried loads that change, one twin is of the other kind
-//! (`other_kind.rs`).
+//! except for one in ten of the first run.
+//!
+//! The second twin of a run from tick to tick locates events, where that is possible. Finer runs of the same kind may repeat a
+//! fault of the first. A spring that a coarse tick stops in one go is an example. `other_kind.rs` does the same for runs with
+//! located events.
 
 use super::growth::{Growth, Seen};
 use super::work::{self, Patience, TooLong};
-use super::{Repeated, moments, other_kind, touches};
+use super::{Repeated, moments, touches};
 use jostle_engine::Simulation;
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::integrate::{Detail, EventTiming, ORDER, StepPace};
@@ -49,8 +52,10 @@ impl Finer {
     pub const SAME: Self = Self { ticks: 1, of: 1, parts: 1, located: false, allowed: 1.0 };
     /// With half the tick.
     pub const HALF: Self = Self { ticks: 2, ..Self::SAME };
-    /// With the same tick by a method with located events.
-    pub const LOCATED: Self = Self { located: true, ..Self::SAME };
+    /// By a method with located events. Its order is so much higher that ticks twice as long suffice.
+    const LOCATED: Self = Self { of: 2, located: true, ..Self::SAME };
+    /// The same for a run of so few ticks that half of them are no fair sample.
+    const LOCATED_AT_EACH: Self = Self { of: 1, ..Self::LOCATED };
     /// With a tenth of the error allowed to a step.
     const TENTH: Self = Self { allowed: 0.1, ..Self::SAME };
 
@@ -150,9 +155,9 @@ pub(super) fn of(simulation: &Simulation) -> Vec<Finer> {
         // The same ticks, and so the same steps from event to event, in halves; and others.
         (true, true) => [Finer::SAME, Finer::HALF].map(|ticks| Finer { parts: 2, ..ticks }).to_vec(),
         (true, false) => {
-            let first = by_ticks(2, cycles_of(simulation)[0]);
-            let second = if other_kind::carried(simulation) { Finer::LOCATED } else { second_by_ticks(simulation) };
-            vec![first, second]
+            let few = simulation.ticks() < 2 * FEWEST_CYCLES;
+            let located = if few { Finer::LOCATED_AT_EACH } else { Finer::LOCATED };
+            vec![by_ticks(2, cycles_of(simulation)[0]), located]
         }
     }
 }
@@ -193,14 +198,15 @@ pub(super) fn run(
     };
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
-    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience) {
+    let overloaded = |twin: &Simulation| finer.located && twin.resource::<State>().located().given_up > 0;
+    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience, overloaded) {
         Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
         Err(TooLong) => None,
     })
 }
 
-/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if some of
-/// its ticks held too many events to locate.
+/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if a tick
+/// held too many events to locate.
 pub(super) fn run_located(
     first: &Simulation,
     how: (Finer, u64),

@@ -72,11 +72,12 @@ impl Patience {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TooLong;
 
-/// Runs until the end of a tick, or until a failure, which is returned.
+/// Runs until the end of a tick, or until a failure, which is returned. A run that is `useless` goes no farther.
 pub(super) fn run_to_tick(
     simulation: &mut Simulation,
     until: u64,
     patience: Option<Patience>,
+    useless: impl Fn(&Simulation) -> bool,
 ) -> Result<Option<Failure>, TooLong> {
     let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
     let mut failure = None;
@@ -85,7 +86,7 @@ pub(super) fn run_to_tick(
         let foretold = evaluations(simulation) / if done > TELLS { done } else { 1.0 };
         let is_over =
             |most: Patience| foretold > most.evaluations || most.time.is_some_and(|time| begin.elapsed() > time);
-        if patience.is_some_and(is_over) {
+        if patience.is_some_and(is_over) || useless(simulation) {
             return Err(TooLong);
         }
         failure = simulation.run_to_tick((simulation.clock().ticks + chunk).min(until)).err();

@@ -278,7 +278,8 @@ fn missed(
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
         _ if coarse.overloaded || fine.overloaded => {
-            "some ticks have too many contacts to locate all, and went on under velocity Verlet".to_owned()
+            "some ticks had too many events to locate them all. The compared runs are alike there, so their error is not known"
+                .to_owned()
         }
         Some(time) => {
             let why = match ends.finest {
@@ -296,6 +297,9 @@ fn missed(
     let (apart, horizon) = coarse.apart_until(fine, TELLS_NOTHING * trials.sizes().0);
     let mut known = estimate(if magnified || horizon.is_some() { apart } else { error });
     known.horizon = horizon;
+    if coarse.overloaded || fine.overloaded {
+        (known.position.discretisation, known.velocity.discretisation) = (None, None);
+    }
     known.position.rounding = Some(f64::EPSILON * fine.farthest());
     plan.error = Some(known);
     plan
