@@ -5,7 +5,7 @@ use clap::Args;
 use super::film_times::Misfit;
 use super::flags::{OverrideFlags, StrictFlag};
 use super::load::Request;
-use super::pace::Runner;
+use super::pace::{Ended, Runner};
 use super::progress_bar::Progress;
 use super::result::{self, Detail, Ran};
 use super::say::{count, print_line, say};
@@ -97,7 +97,11 @@ impl Check {
     fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let end = simulation.ticks();
-        let failure = Runner { progress, wall_clock: None }.run_to(&mut simulation, end).err();
+        let failure = match (Runner { progress, wall_clock: None }).run_to(&mut simulation, end) {
+            Err(Ended::Wrong(failure)) => Some(failure),
+            // Nothing waits for a Ctrl-C here.
+            Ok(()) | Err(Ended::Interrupted) => None,
+        };
         let ran = Ran { strict: self.strict.strict, ..Ran::whole(&simulation, failure.as_ref()) };
         let exit = result::tell(request, &ran, Detail::of(self.json, true));
         if exit == Exit::Good && !self.json && !self.quiet {

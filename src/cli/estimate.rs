@@ -5,6 +5,7 @@ use std::io::IsTerminal;
 use clap::Args;
 
 use super::Exit;
+use super::interrupt;
 use super::load::Request;
 use super::say::say;
 use crate::cli::author;
@@ -53,7 +54,7 @@ impl EstimateFlags {
         (source, overrides): (&Source, &Overrides),
     ) -> Result<(), Exit> {
         let load = |overrides: &Overrides| Simulation::load_with(source, overrides, author::plugin);
-        let scene = Repeated { overrides, load: &load, tell: Some(tell) };
+        let scene = Repeated { overrides, load: &load, tell: Some(tell), interrupted: Some(interrupt::asked) };
         estimate::estimate(simulation, self.wanted(), &scene).map_err(|errors| request.refuse_scene(&errors))
     }
 }

@@ -5,6 +5,7 @@ use std::io;
 use super::aim::Aim;
 use super::destination::Place;
 use super::inputs::Inputs;
+use super::interrupt;
 use super::load::Request;
 use super::progress_bar::Progress;
 use super::projector::Projector;
@@ -93,6 +94,8 @@ pub(super) struct Made {
 /// Why a film was not made.
 pub(super) enum Trouble {
     Run(Failure),
+    /// Ctrl-C.
+    Interrupted,
     Output(OutputError),
     /// The frames could not be kept aside.
     Spool(io::Error),
@@ -215,9 +218,13 @@ impl Set<'_> {
         };
         // A film that is kept aside first is opened when it is played.
         let mut film = if spool.is_none() { Some(self.open().map_err(|error| order.refuse(&error))?) } else { None };
+        interrupt::arm();
         let progress = Progress::new(schedule.frames(), "frames", order.silent);
         let mut recorder = Recorder::default();
         let recorded = schedule.times().try_for_each(|time| {
+            if interrupt::asked() {
+                return Err(Trouble::Interrupted);
+            }
             let frame = recorder.frame(simulation, time).map_err(Trouble::Run)?;
             match (&mut film, &mut spool) {
                 (Some(film), _) => projector.show(film.as_mut(), frame)?,
@@ -233,6 +240,7 @@ impl Set<'_> {
             Err(Trouble::Spool(error)) => return Err(order.refuse_spool(&error)),
             Err(Trouble::Told) => return Err(Exit::Usage),
             Err(Trouble::Run(failure)) => Some(failure),
+            Err(Trouble::Interrupted) => None,
             // The rest of the run behind the last frame still counts for the card.
             Ok(()) if order.shot.is_film() => simulation.run_to_end().err(),
             Ok(()) => None,
@@ -257,13 +265,14 @@ impl Set<'_> {
         }
         match finished {
             Ok(written) => Ok(Made { written: Some(written), failure }),
-            Err(Trouble::Output(OutputError::NoFrames { .. })) if failure.is_some() => {
+            Err(Trouble::Output(OutputError::NoFrames { .. })) if failure.is_some() || interrupt::asked() => {
                 Ok(Made { written: None, failure })
             }
             Err(Trouble::Output(error)) => Err(order.refuse(&error)),
             Err(Trouble::Spool(error)) => Err(order.refuse_spool(&error)),
             Err(Trouble::Run(failure)) => Ok(Made { written: None, failure: Some(failure) }),
-            Err(Trouble::Told) => Err(Exit::Usage),
+            // Keeping what was reached takes as long as it takes.
+            Err(Trouble::Told | Trouble::Interrupted) => Err(Exit::Usage),
         }
     }
 }

@@ -16,6 +16,7 @@ mod find;
 mod flags;
 mod fmt;
 mod inputs;
+mod interrupt;
 mod junit;
 mod list;
 mod load;
@@ -54,6 +55,8 @@ pub enum Exit {
     Usage,
     /// 3: the run failed; frames so far are kept.
     RunWrong,
+    /// 130: Ctrl-C ended the run; frames so far are kept.
+    Interrupted = 130,
 }
 
 impl From<Exit> for std::process::ExitCode {
@@ -86,7 +89,8 @@ Examples:
 
 Scenes that come with the program: {scenes}.
 
-Exit codes: 0 good, 1 scene or expectation wrong, 2 command line wrong or a file cannot be written, 3 run gone wrong.";
+Exit codes: 0 good, 1 scene or expectation wrong, 2 command line wrong or a file cannot be written, 3 run gone wrong,
+130 ended by Ctrl-C. What a run reached is kept.";
 
 fn after_help() -> String {
     let names: Vec<&str> = examples::SCENES.iter().map(|(name, _)| *name).collect();

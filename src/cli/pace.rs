@@ -2,10 +2,19 @@
 
 use std::time::{Duration, Instant};
 
+use super::interrupt;
 use super::progress_bar::Progress;
 use super::wall_clock::WallClock;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
+
+/// Why a run ended before its end.
+pub(super) enum Ended {
+    /// It failed.
+    Wrong(Failure),
+    /// Ctrl-C.
+    Interrupted,
+}
 
 /// The shortest time between two updates of the bar.
 const BEAT: Duration = Duration::from_millis(50);
@@ -22,16 +31,19 @@ pub(super) struct Runner {
 
 impl Runner {
     /// Runs to a tick in batches of about a beat. Batches of a fixed share would stop the bar in enormous runs.
-    pub fn run_to(&mut self, simulation: &mut Simulation, tick: u64) -> Result<(), Failure> {
+    pub fn run_to(&mut self, simulation: &mut Simulation, tick: u64) -> Result<(), Ended> {
         let step = ((STEP / simulation.clock().dt).round() as u64).max(1);
         let mut batch = if self.wall_clock.is_some() { step } else { 1 };
         while simulation.clock().ticks < tick {
+            if interrupt::asked() {
+                return Err(Ended::Interrupted);
+            }
             if let Some(clock) = &mut self.wall_clock {
                 clock.wait(simulation.clock().time());
             }
             let start = Instant::now();
             let next = simulation.clock().ticks.saturating_add(batch);
-            simulation.run_to_tick(next.min(tick))?;
+            simulation.run_to_tick(next.min(tick)).map_err(Ended::Wrong)?;
             self.progress.at(simulation.clock().ticks);
             if self.wall_clock.is_some() {
                 continue;

@@ -9,6 +9,7 @@ use super::destination::{Place, Wish, places};
 use super::estimate::EstimateFlags;
 use super::film::{FilmRequest, Made, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
+use super::interrupt;
 use super::load::Request;
 use super::result::{self, Detail, Ran};
 use super::say::{count as in_words, say};
@@ -101,7 +102,8 @@ impl Render {
                     say(&format!("error: {message}"));
                     return Exit::Usage;
                 }
-                let ends = scenes.into_iter().zip(&places).map(|(scene, place)| self.render(scene, place));
+                let films = scenes.into_iter().zip(&places).take_while(|_| !interrupt::asked());
+                let ends = films.map(|(scene, place)| self.render(scene, place));
                 ends.fold(Exit::Good, Exit::worse)
             }
             Err(exit) => exit,
@@ -169,9 +171,13 @@ impl Render {
         if let Some(written) = &written
             && (detail == Detail::Card || failure.is_some())
         {
-            report(written, failure.is_some());
+            report(
+                written,
+                failure.is_some().then_some("the run went wrong").or(interrupt::asked().then_some("Ctrl-C")),
+            );
         }
         if failure.is_none()
+            && !interrupt::asked()
             && let Err(exit) = self.estimates.estimate(&mut simulation, request, (&source, &overrides))
         {
             return exit;
@@ -182,8 +188,8 @@ impl Render {
     }
 }
 
-/// Reports the written film.
-fn report(written: &WrittenFilm, cut: bool) {
+/// Reports the written film. `cut`: the reason for which it ended early.
+fn report(written: &WrittenFilm, cut: Option<&str>) {
     let WrittenFilm { path, frames: count, bytes, seconds, left_over } = written;
     let size = flags::bytes_in_words(*bytes as f64);
     let path = path.display();
@@ -193,8 +199,8 @@ fn report(written: &WrittenFilm, cut: bool) {
         say(&format!("{path}: one picture, {size}"));
     } else if *seconds == 0.0 {
         say(&format!("{path}: {frames} in one picture, {size}"));
-    } else if cut {
-        say(&format!("{path}: the {frames} before the run went wrong, {seconds:.2} s, {size}"));
+    } else if let Some(end) = cut {
+        say(&format!("{path}: the {frames} before {end}, {seconds:.2} s, {size}"));
     } else {
         say(&format!("{path}: {frames}, {seconds:.2} s, {size}"));
     }

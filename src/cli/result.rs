@@ -4,8 +4,9 @@ use crate::SimulationExt;
 use serde::Serialize;
 
 use super::Exit;
+use super::interrupt;
 use super::load::Request;
-use super::say::{count, print_line, say};
+use super::say::{count, number, print_line, say};
 use crate::expect::ExpectationOutcome;
 use crate::report::Card;
 use crate::report::reversal::Reversal;
@@ -57,13 +58,23 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let Ran { simulation, failure, cut, back, strict } = *ran;
     let card = simulation.card();
     let mut exit = Exit::Good;
+    let cut = cut || interrupt::asked();
+    if interrupt::asked() {
+        let (time, end) = (simulation.clock().time(), simulation.ticks() as f64 * simulation.clock().dt);
+        let (time, end) = (number(time), number(end));
+        say(&format!(
+            "note: {}: Ctrl-C ended the run at t = {time} s of {end} s. All results are those until then",
+            request.name
+        ));
+        exit = Exit::Interrupted;
+    }
     if let Some(failure) = failure {
         let why = card.why.as_deref().unwrap_or_default();
         say(&format!("error: {}: the run went wrong: {failure}\nhelp: {why}", request.name));
-        exit = Exit::RunWrong;
+        exit = exit.worse(Exit::RunWrong);
     } else if strict && card.is_distrusted() {
         say(&format!("error: {}: {}", request.name, card.verdict));
-        exit = Exit::RunWrong;
+        exit = exit.worse(Exit::RunWrong);
     }
     for warning in &card.warnings {
         say(&format!("warning: {}: {warning}", request.name));

@@ -10,8 +10,9 @@ use super::destination::{ends_as_picture, is_directory, takes_no_file};
 use super::estimate::EstimateFlags;
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
+use super::interrupt;
 use super::load::Request;
-use super::pace::Runner;
+use super::pace::{Ended, Runner};
 use super::progress_bar::Progress;
 use super::result::{self, Detail, Ran};
 use super::row_ticks::Rows;
@@ -120,6 +121,7 @@ impl RunArguments {
         if self.output.is_some() && !measures {
             say("note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others");
         }
+        interrupt::arm();
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {
             Some(path) => {
@@ -138,7 +140,8 @@ impl RunArguments {
         }
         let failure = match ran {
             Ok(()) => None,
-            Err(Trouble::Run(failure)) => Some(failure),
+            Err(Trouble::Run(Ended::Wrong(failure))) => Some(failure),
+            Err(Trouble::Run(Ended::Interrupted)) => None,
             // A reader that has gone away wants no more.
             Err(Trouble::Output(OutputError::Io { cause, .. })) if cause.kind() == ErrorKind::BrokenPipe => {
                 return Exit::Good;
@@ -146,13 +149,13 @@ impl RunArguments {
             Err(Trouble::Output(error)) => return request.usage(&error.to_string()),
             Err(Trouble::Unsaved(message)) => return request.usage(&message),
         };
-        if failure.is_none() && !self.snapshots.resumes() {
+        if failure.is_none() && !interrupt::asked() && !self.snapshots.resumes() {
             let scene = (&source, &self.overrides(None));
             if let Err(exit) = self.estimates.estimate(&mut simulation, request, scene) {
                 return exit;
             }
         }
-        let back = if self.reverse && failure.is_none() {
+        let back = if self.reverse && failure.is_none() && !interrupt::asked() {
             let again = Simulation::load_with(&source, &self.overrides(simulation.plan().cloned()), author::plugin);
             match again.map_err(|errors| request.refuse_scene(&errors)) {
                 Ok(mut again) => Some(Reversal::of(&mut again)),

@@ -8,11 +8,11 @@ use super::destination::{is_directory, takes_no_file};
 use super::flags::moment;
 use super::inputs::{Inputs, is_same_file};
 use super::load::Request;
-use super::pace::Runner;
+use super::pace::{Ended, Runner};
 use super::say::say;
 use crate::output::{OutputError, write_whole};
 use crate::simulation::{Simulation, Snapshot};
-use crate::tick::{Failure, Notes};
+use crate::tick::Notes;
 
 /// Flags of snapshots.
 #[derive(Args, Clone, Debug)]
@@ -44,7 +44,7 @@ fn saving(text: &str) -> Result<Saving, String> {
 
 /// Why a run ended early.
 pub(super) enum Trouble {
-    Run(Failure),
+    Run(Ended),
     Output(OutputError),
     /// The run cannot be saved.
     Unsaved(String),

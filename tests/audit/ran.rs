@@ -51,7 +51,7 @@ fn run_with(text: &str, looks: u64, effort: Effort) -> Result<Ran, String> {
         };
         seen.push((simulation.clock().time(), (0..bodies.len()).map(pose).collect()));
     }
-    let repeated = Repeated { overrides: &overrides, load: &load, tell: None };
+    let repeated = Repeated { overrides: &overrides, load: &load, tell: None, interrupted: None };
     estimate(&mut simulation, wanted, &repeated).map_err(|errors| errors.to_string())?;
     Ok(Ran { seen, extents: simulation.bodies().extents().to_vec(), card: simulation.card() })
 }

@@ -39,7 +39,8 @@ fn estimated(text: &str, wanted: EstimateRequest) -> Card {
     let mut simulation = load(&overrides).unwrap();
     watch(&mut simulation, wanted);
     simulation.run_to_end().unwrap();
-    estimate(&mut simulation, wanted, &Repeated { overrides: &overrides, load: &load, tell: None }).unwrap();
+    estimate(&mut simulation, wanted, &Repeated { overrides: &overrides, load: &load, tell: None, interrupted: None })
+        .unwrap();
     simulation.card()
 }
 

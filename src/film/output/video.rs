@@ -45,6 +45,9 @@ fn open(path: &Path, settings: &FilmSettings, view: View, codec: &[&str]) -> Ope
     part.push(file.part());
     command.args(EVEN).args(codec).arg(part);
     command.stdin(Stdio::piped()).stdout(Stdio::null()).stderr(Stdio::piped());
+    // A Ctrl-C is for this program, which ends the film.
+    #[cfg(unix)]
+    std::os::unix::process::CommandExt::process_group(&mut command, 0);
     let mut child = command.spawn().map_err(|cause| match cause.kind() {
         io::ErrorKind::NotFound => OutputError::NoEncoder { path: path.to_path_buf() },
         _ => OutputError::Encoder {

@@ -108,9 +108,16 @@ pub struct Repeated<'a> {
     pub load: &'a dyn Fn(&Overrides) -> Result<Simulation, SceneErrors>,
     /// Told of each further run.
     pub tell: Option<fn(&str)>,
+    /// Asked now and then whether the user wants no more of them.
+    pub interrupted: Option<fn() -> bool>,
 }
 
 impl Repeated<'_> {
+    /// Whether further runs are to end.
+    fn is_interrupted(&self) -> bool {
+        self.interrupted.is_some_and(|asked| asked())
+    }
+
     /// The scene at its beginning, to be run by another plan for as long as `first`. Contacts are stiffer by the factor
     /// `stiffness`.
     fn again(&self, first: &Simulation, plan: Plan, stiffness: f64, what: &str) -> Result<Simulation, SceneErrors> {

@@ -7,7 +7,7 @@
 
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
-use super::{EstimatedError, Repeated, touches};
+use super::{EstimatedError, Repeated, touches, work};
 use jostle_engine::Simulation;
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -37,7 +37,9 @@ pub(super) fn estimate(
     let mut stiffer = scene.again(simulation, plan, STIFFER, "with contacts four times as stiff")?;
     let ticks = simulation.clock().ticks;
     watch_beside(&mut stiffer, simulation, finer, ticks);
-    if let Err(failure) = stiffer.run_to_tick(finer.tick(ticks)) {
+    let ran = work::run_to_tick(&mut stiffer, finer.tick(ticks), None, |_| scene.is_interrupted());
+    let Ok(failure) = ran else { return Ok(()) };
+    if let Some(failure) = failure {
         found.notes.push(format!("with contacts four times as stiff the run goes wrong: {failure}"));
         return Ok(());
     }

@@ -11,7 +11,7 @@ use rand_chacha::ChaCha8Rng;
 
 use super::growth::{Growth, Seen};
 use super::twins::{Finer, watch_beside};
-use super::{EstimatedError, Repeated};
+use super::{EstimatedError, Repeated, work};
 use jostle_engine::Simulation;
 use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
@@ -69,7 +69,7 @@ pub(super) fn estimate(
         watch_beside(&mut other, simulation, Finer::SAME, ticks);
         other.world_mut().insert_resource(LastBits(ChaCha8Rng::seed_from_u64(sample)));
         add_packed_observer(other.world_mut(), disturb);
-        let failure = other.run_to_tick(ticks).err();
+        let Ok(failure) = work::run_to_tick(&mut other, ticks, None, |_| scene.is_interrupted()) else { return Ok(()) };
         if let Some(failure) = failure {
             found.notes.push(format!("with wrong last bits the run goes wrong: {failure}"));
             return Ok(());

@@ -199,7 +199,8 @@ pub(super) fn run(
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
     let overloaded = |twin: &Simulation| finer.located && twin.resource::<State>().located().given_up > 0;
-    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience, overloaded) {
+    let useless = |twin: &Simulation| overloaded(twin) || scene.is_interrupted();
+    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience, useless) {
         Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
         Err(TooLong) => None,
     })

@@ -69,7 +69,7 @@ fn run(
     let wanted = EstimateRequest { effort: Effort::Little, ..EstimateRequest::default() };
     watch(&mut told, wanted);
     told.run_to_end()?;
-    estimate(&mut told, wanted, &Repeated { overrides, load: &load, tell: None })?;
+    estimate(&mut told, wanted, &Repeated { overrides, load: &load, tell: None, interrupted: None })?;
     let error = told.card().error;
     let error = error.and_then(|error| {
         let until = error.horizon.unwrap_or(f64::INFINITY);

@@ -76,7 +76,9 @@ pub fn run(text: &str, overrides: &Overrides, most: u64) -> Outcome {
         }
     }
     let evaluations = simulation.state().evaluation().count;
-    if let Err(errors) = estimate(&mut simulation, wanted, &Repeated { overrides, load: &load, tell: None }) {
+    if let Err(errors) =
+        estimate(&mut simulation, wanted, &Repeated { overrides, load: &load, tell: None, interrupted: None })
+    {
         return Outcome::Refused(errors.to_string());
     }
     let card = simulation.card();
