@@ -2,7 +2,6 @@
 
 use std::process::ExitCode;
 
-use clap::Parser;
 use jostle::cli::{CommandLine, tell_commit};
 
 #[global_allocator]
@@ -20,7 +19,7 @@ fn main() -> ExitCode {
     if let Some(commit) = option_env!("JOSTLE_COMMIT").map(str::to_owned).or(checked_out) {
         tell_commit(commit);
     }
-    CommandLine::parse().execute().into()
+    CommandLine::read().execute().into()
 }
 
 /// `head` is a commit, or it names a branch. Then the last line of the branch's log has the earlier and the current

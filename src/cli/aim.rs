@@ -15,6 +15,7 @@ use crate::record::follow_camera::Follower;
 use crate::record::legend;
 use crate::record::plot::{Board, Plot};
 use crate::record::sections::{CameraChoice, FitCamera, PlotEntry, PlotsSection};
+use crate::scene::SceneError;
 use crate::simulation::Recorder;
 use crate::simulation::{Missing, Sampler};
 use crate::simulation::{Overrides, Simulation};
@@ -87,7 +88,8 @@ impl FilmRequest<'_> {
             let help = "`position`, `velocity`, `angle` and `spin` are quantities of bodies, `force` and `contacts` also of \
             walls";
             let message = format!("there is no channel {channel:?}");
-            self.request.refuse(Exit::SceneWrong, &format!("plots[{plot}]"), &message, help)
+            let error = SceneError::new(format!("plots[{plot}].channels"), message).with_help(help);
+            self.request.refuse_value(Exit::SceneWrong, ahead, error)
         })
     }
 

@@ -4,7 +4,6 @@ use std::process::ExitCode;
 use std::sync::OnceLock;
 
 use bevy_app::App;
-use clap::Parser;
 
 use super::CommandLine;
 
@@ -30,7 +29,7 @@ static COMMIT: OnceLock<String> = OnceLock::new();
 /// When it is called twice: a process has one command line.
 pub fn main_with(plugin: impl Fn(&mut App) + Send + Sync + 'static) -> ExitCode {
     assert!(PLUGIN.set(Box::new(plugin)).is_ok(), "`main_with` is called once");
-    CommandLine::parse().execute().into()
+    CommandLine::read().execute().into()
 }
 
 /// Tells the commit that the program is built from, for reports; without it they call the commit unknown.

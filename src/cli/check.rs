@@ -8,7 +8,7 @@ use super::load::Request;
 use super::pace::{Ended, Runner};
 use super::progress_bar::Progress;
 use super::result::{self, Detail, Ran};
-use super::say::{count, print_line, say};
+use super::say::{count, print_json, print_line, say};
 use super::{Exit, colors};
 use crate::scene::{Source, number};
 use crate::simulation::{Overrides, Simulation};
@@ -76,7 +76,7 @@ impl Check {
         if self.json {
             let anchors: Vec<_> = anchors.iter().map(Seen::json).collect();
             let told = serde_json::json!({ "scene": name, "errors": [], "notes": notes, "anchors": anchors });
-            return print_line(&told.to_string());
+            return print_json(&told);
         }
         if self.quiet {
             return Exit::Good;
@@ -158,7 +158,7 @@ fn anchors(simulation: &Simulation) -> Vec<Seen> {
 /// Mistakes for which only `render` refuses a scene: an unknown theme, and moments that are not in the run.
 fn refused_by_render(request: Request, source: &Source, simulation: &Simulation) -> Option<Exit> {
     let theme = colors::theme(request, source, simulation, None).err();
-    theme.or_else(|| Misfit::of(simulation).map(|misfit| misfit.refuse(request, Exit::SceneWrong)))
+    theme.or_else(|| Misfit::of(simulation).map(|misfit| misfit.refuse(request, simulation, Exit::SceneWrong)))
 }
 
 /// The contents of a scene.

@@ -6,8 +6,8 @@ use super::Exit;
 use super::load::Request;
 use crate::raster::Theme;
 use crate::record::sections::LookSection;
-use crate::scene::Source;
 use crate::scene::embed::{Door, FileRequest, told};
+use crate::scene::{SceneError, Source};
 use crate::simulation::Simulation;
 
 /// A file with the colours of a film.
@@ -57,7 +57,10 @@ pub(super) fn theme(
         let help = format!("themes are {known}, or a file that ends with .ron: `--theme mine.ron`");
         match asked {
             Some(_) => request.usage(&format!("{message}; {help}")),
-            None => request.refuse(Exit::SceneWrong, "look.theme", &message, &help),
+            None => {
+                let error = SceneError::new("look.theme", message).with_help(help);
+                request.refuse_value(Exit::SceneWrong, simulation, error)
+            }
         }
     })
 }

@@ -9,6 +9,7 @@ use super::say::{number, say};
 use crate::contacts::events::{ContactEvents, Touching, watch};
 use crate::record::Schedule;
 use crate::record::sections::FreezeEntry;
+use crate::scene::SceneError;
 use crate::simulation::Simulation;
 use crate::world::Name;
 
@@ -41,7 +42,7 @@ impl FilmRequest<'_> {
         }
         let from = film.begin();
         if let Some(misfit) = begins_too_late(simulation) {
-            return Err(self.misfit(&misfit));
+            return Err(self.misfit(simulation, misfit));
         }
         let to = film.end().min(end);
         if let Shot::Sheet((columns, rows)) = self.shot {
@@ -51,7 +52,7 @@ impl FilmRequest<'_> {
             return Ok((Schedule::at((0..columns * rows).map(time)), every));
         }
         if let Some(misfit) = too_many_frames(simulation, frames_per_second).or_else(|| stands_too_late(simulation)) {
-            return Err(self.misfit(&misfit));
+            return Err(self.misfit(simulation, misfit));
         }
         let mut schedule = Schedule::new(from, to, film.speed(), frames_per_second);
         let touched = self.first_touches(simulation, from, to)?;
@@ -72,9 +73,9 @@ impl FilmRequest<'_> {
         Ok((schedule, step))
     }
 
-    fn misfit(&self, misfit: &Misfit) -> Exit {
+    fn misfit(&self, simulation: &Simulation, misfit: Misfit) -> Exit {
         let exit = if self.is_overridden() { Exit::Usage } else { Exit::SceneWrong };
-        misfit.refuse(self.request, exit)
+        misfit.refuse(self.request, simulation, exit)
     }
 
     /// Whether the command line, and not the scene, sets the length of the run and the film.
@@ -133,8 +134,8 @@ impl Misfit {
     }
 
     /// Tells it.
-    pub(super) fn refuse(&self, request: Request, exit: Exit) -> Exit {
-        request.refuse(exit, &self.path, &self.message, self.help)
+    pub(super) fn refuse(self, request: Request, simulation: &Simulation, exit: Exit) -> Exit {
+        request.refuse_value(exit, simulation, SceneError::new(self.path, self.message).with_help(self.help))
     }
 }
 
@@ -162,6 +163,15 @@ fn too_many_frames(simulation: &Simulation, frames_per_second: f64) -> Option<Mi
     let seconds = film.end().min(end(simulation)) - film.begin();
     let standing: f64 = film.freeze.iter().map(|freeze| freeze.lasts.si()).sum();
     let frames = (seconds / film.speed() + standing) * frames_per_second;
+    let mut freezes = film.freeze.iter().enumerate().map(|(index, freeze)| (index, freeze.lasts.si()));
+    if let Some((index, lasts)) = freezes.find(|(_, lasts)| lasts * frames_per_second > MOST_FRAMES) {
+        let (lasts, frames) = (number(lasts), number((lasts * frames_per_second).round()));
+        return Some(Misfit {
+            path: format!("film.freeze[{index}].for"),
+            message: format!("to stand still for {lasts} s would be {frames} frames, more than {MOST_FRAMES}"),
+            help: "let it stand still for less, or choose fewer frames per second (`fps`)",
+        });
+    }
     (frames > MOST_FRAMES).then(|| {
         let (seconds, frames) = (number(seconds), number(frames.round()));
         Misfit {

@@ -1,13 +1,13 @@
 //! `jostle fmt`: writes scenes in their standard layout.
 
-use std::io::{IsTerminal, Read};
+use std::io::Read;
 use std::path::Path;
 
 use clap::Args;
 
 use super::Exit;
 use super::load;
-use super::say::{print_line, say};
+use super::say::{print_line, say, say_mistakes};
 use crate::output::write_whole;
 use crate::scene::{LARGEST_SCENE, SceneErrors, Source, formatted};
 
@@ -29,7 +29,8 @@ Examples:
   jostle fmt --check *.ron      is everything in the standard layout?
   jostle fmt - < my.ron         to standard output, as editors do it
 
-Your line breaks stay, and so do numbers, texts and comments as they are written. A list or map that fills one line of \
+Your line breaks stay, and so do numbers, texts and comments as they are written. Only characters that a terminal obeys \
+or hides become escapes, such as \\u{1b}. A list or map that fills one line of \
 more than 120 columns gets a line for each item. Sections move only if the scene keeps its meaning.
 
 Exit codes: 0 good, 1 a scene cannot be read or (with --check) is not in the standard layout, 2 command line wrong.";
@@ -92,6 +93,6 @@ fn standard_input() -> Result<Source, Exit> {
 }
 
 fn refuse(errors: &SceneErrors) -> Exit {
-    say(errors.render(std::io::stderr().is_terminal()).trim_end());
+    say_mistakes(errors);
     Exit::SceneWrong
 }

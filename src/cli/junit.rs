@@ -3,6 +3,7 @@
 use std::fmt::Write;
 
 use super::trial::{Trial, Verdict};
+use crate::scene::{is_hidden, visible_line};
 
 /// A result by name; `None` for files that are not scenes.
 pub(super) type Named<'a> = (&'a str, Option<&'a Trial>);
@@ -47,9 +48,8 @@ fn cases_of(name: &str, trial: &Trial, cases: &mut String) -> Counts {
     };
     case(cases, name, "runs", trial.seconds, &answer);
     for outcome in &trial.expect {
-        let text: Vec<&str> = outcome.text.split_whitespace().collect();
         let answer = if outcome.holds { Answer::Passed } else { Answer::Failure(&outcome.measured) };
-        case(cases, name, &text.join(" "), 0.0, &answer);
+        case(cases, name, &visible_line(&outcome.text), 0.0, &answer);
     }
     Counts {
         tests: 1 + trial.expect.len(),
@@ -96,7 +96,8 @@ impl Counts {
     }
 }
 
-/// A text as the value of an attribute. Characters that XML 1.0 cannot hold become a replacement character.
+/// A text as the value of an attribute. Hidden characters become escapes, and others that XML 1.0 cannot hold a replacement
+/// character.
 fn escaped(text: &str) -> String {
     let mut out = String::with_capacity(text.len());
     for letter in text.chars() {
@@ -106,7 +107,8 @@ fn escaped(text: &str) -> String {
             '>' => out.push_str("&gt;"),
             '"' => out.push_str("&quot;"),
             '\n' | '\t' | '\r' => out.push(' '),
-            '\0'..='\x1f' | '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            '\u{fffe}' | '\u{ffff}' => out.push('\u{fffd}'),
+            _ if is_hidden(letter) => out.extend(letter.escape_unicode()),
             _ => out.push(letter),
         }
     }
@@ -151,6 +153,6 @@ mod tests {
 </testsuites>
 ";
         assert_eq!(report, expected);
-        assert_eq!(escaped("\u{7}\n"), "\u{fffd} ");
+        assert_eq!(escaped("\u{7}\n"), "\\u{7} ");
     }
 }

@@ -3,7 +3,7 @@
 use bevy_app::App;
 use clap::Args;
 
-use super::say::{count, print_line, say};
+use super::say::{count, print_json, print_line, say};
 use super::{Exit, examples};
 use crate::cli::author;
 use crate::cli::paths::handed_on;
@@ -105,7 +105,7 @@ impl List {
                 say(&format!("note: none of the {} holds `{filter}`", self.what));
             }
         }
-        let exit = if self.json { print_json(&items) } else { print(&items) };
+        let exit = if self.json { print_items(&items) } else { print(&items) };
         if self.what == SCENES && !self.json && self.filter.is_none() {
             let others: Vec<String> = kinds(registry).into_iter().filter(|kind| kind != SCENES).collect();
             return exit.worse(print_line(&format!(
@@ -201,7 +201,7 @@ fn print(items: &[Item]) -> Exit {
     items.iter().map(line).fold(Exit::Good, Exit::worse)
 }
 
-fn print_json(items: &[Item]) -> Exit {
+fn print_items(items: &[Item]) -> Exit {
     let line = |item: &Item| {
         let mut json = serde_json::json!({ "name": item.name, "text": item.text });
         for (key, part) in [("notes", item.more.as_str()), ("from", &item.from)] {
@@ -209,7 +209,7 @@ fn print_json(items: &[Item]) -> Exit {
                 json[key] = part.into();
             }
         }
-        print_line(&json.to_string())
+        print_json(&json)
     };
     items.iter().map(line).fold(Exit::Good, Exit::worse)
 }

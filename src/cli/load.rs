@@ -1,11 +1,10 @@
 //! Reading of scenes for the commands, and reports of their mistakes.
 
-use std::io::IsTerminal;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::inputs::is_same_file;
-use super::say::{print_line, say};
+use super::say::{print_json, say, say_mistakes};
 use super::{Exit, examples};
 use crate::cli::author;
 use crate::scene::{SceneError, SceneErrors, Source};
@@ -51,9 +50,9 @@ impl Request<'_> {
 
     /// Reports the mistakes of the scene.
     pub fn refuse_scene(self, errors: &SceneErrors) -> Exit {
-        say(errors.render(std::io::stderr().is_terminal()).trim_end());
+        say_mistakes(errors);
         let exit = if self.is_missing() { Exit::Usage } else { Exit::SceneWrong };
-        if self.json { print_line(&errors.to_json().to_string()).worse(exit) } else { exit }
+        if self.json { print_json(&errors.to_json()).worse(exit) } else { exit }
     }
 
     /// Whether there is no scene of that name, which is a mistake of the command line.
@@ -64,7 +63,13 @@ impl Request<'_> {
         }
     }
 
-    /// Reports a mistake in a value of the scene that only shows at this point.
+    /// Reports a mistake in a value of the scene that only shows at this point, with its place.
+    pub fn refuse_value(self, exit: Exit, simulation: &Simulation, error: SceneError) -> Exit {
+        self.refuse_scene(&simulation.refused(error));
+        exit
+    }
+
+    /// Reports why the scene or the command line does not suit the command.
     pub fn refuse(self, exit: Exit, path: &str, message: &str, help: &str) -> Exit {
         let message = message.to_owned();
         let error = SceneError::new(path, message).with_help(help);
@@ -78,7 +83,7 @@ impl Request<'_> {
         say(&format!("error: {message}"));
         if self.json {
             let errors = vec![SceneError::new("", message)];
-            print_line(&SceneErrors::new(Source::new(self.name, ""), errors, Vec::new()).to_json().to_string());
+            print_json(&SceneErrors::new(Source::new(self.name, ""), errors, Vec::new()).to_json());
         }
         Exit::Usage
     }

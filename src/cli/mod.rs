@@ -44,6 +44,8 @@ mod wall_clock;
 
 use clap::{Parser, Subcommand};
 
+use crate::scene::is_hidden;
+
 /// How a command ended. The exit codes are documented in the manual.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum Exit {
@@ -143,6 +145,18 @@ enum Command {
 }
 
 impl CommandLine {
+    /// The command line of this process. If it is wrong or asks for help, the process ends with a message.
+    pub fn read() -> Self {
+        Self::try_parse().unwrap_or_else(|error| {
+            let message = error.to_string();
+            if message.contains(is_hidden) {
+                say::say(message.trim_end());
+                std::process::exit(error.exit_code());
+            }
+            error.exit()
+        })
+    }
+
     /// Executes the command. Messages go to standard error, results to standard output.
     pub fn execute(self) -> Exit {
         load::allow_outside(self.allow_outside);

@@ -6,10 +6,12 @@ use serde::Serialize;
 use super::Exit;
 use super::interrupt;
 use super::load::Request;
-use super::say::{count, number, print_line, say};
+use super::say::{count, number, print_json, say};
+use super::trial::told;
 use crate::expect::ExpectationOutcome;
 use crate::report::Card;
 use crate::report::reversal::Reversal;
+use crate::scene::visible_line;
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -95,20 +97,21 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
         None => None,
     };
     if detail == Detail::Json {
-        return exit.worse(print_json(request.name, simulation, &card, &outcomes, back));
+        return exit.worse(print_result(request.name, simulation, &card, &outcomes, back));
     }
     if detail == Detail::Card {
         // The lines above have told the warnings.
         let mut told = card.clone();
         told.notes.retain(|note| !note.starts_with("warning: "));
-        say(&format!("{}\n{told}", simulation.header().title.as_deref().unwrap_or(request.name)));
+        let title = simulation.header().title.as_deref().unwrap_or(request.name);
+        say(&format!("{}\n{told}", visible_line(title)));
     }
     if let Some(back) = back {
         say(&format!("  {}", returned(back)));
     }
     for outcome in &broken {
         let place = if detail == Detail::Card { "  " } else { &format!("{}: ", request.name) };
-        say(&format!("{place}expectation broken: {}: {}", outcome.text, outcome.measured));
+        say(&format!("{place}expectation broken: {}", told(outcome)));
     }
     let holding = outcomes.iter().filter(|outcome| outcome.holds).count();
     if detail == Detail::Card && broken.is_empty() && holding > 0 {
@@ -151,7 +154,7 @@ struct RunResult<'a> {
 }
 
 /// Prints the result of a run as JSON, one line.
-fn print_json(
+fn print_result(
     scene: &str,
     simulation: &Simulation,
     card: &Card,
@@ -176,11 +179,5 @@ fn print_json(
         expect,
         reverse,
     };
-    match serde_json::to_string(&result) {
-        Ok(text) => print_line(&text),
-        Err(error) => {
-            say(&format!("error: the result cannot be written as JSON: {error}"));
-            Exit::RunWrong
-        }
-    }
+    print_json(&result)
 }

@@ -13,7 +13,7 @@ use super::inputs::is_same_file;
 use super::junit;
 use super::load::Request;
 use super::progress_bar::Progress;
-use super::say::{count, print_line, say};
+use super::say::{count, print_json, print_line, say};
 use super::side_by_side::{all_cores, in_order};
 use super::trial::{Trial, Verdict, told};
 use crate::output::write_whole;
@@ -193,7 +193,7 @@ impl Test {
 
     fn tell(&self, name: &str, tried: &Tried, width: usize) -> Exit {
         if self.json {
-            return print_line(&json(name, tried).to_string());
+            return print_json(&json(name, tried));
         }
         let line = |word: &str, what: String| print_line(&format!("{word:<9} {name:<width$}  {what}"));
         let trial = match tried {

@@ -5,7 +5,7 @@ use std::path::PathBuf;
 
 use super::Exit;
 use crate::expect::ExpectationOutcome;
-use crate::scene::SceneErrors;
+use crate::scene::{SceneErrors, visible_line};
 use crate::simulation::Simulation;
 use crate::tick::Failure;
 
@@ -123,6 +123,5 @@ impl Trial {
 
 /// A broken expectation in a line.
 pub(super) fn told(outcome: &ExpectationOutcome) -> String {
-    let text: Vec<&str> = outcome.text.split_whitespace().collect();
-    format!("{}: {}", text.join(" "), outcome.measured)
+    format!("{}: {}", visible_line(&outcome.text), outcome.measured)
 }

@@ -2,6 +2,7 @@
 
 use glam::DVec2;
 
+use super::number::exact;
 use super::outline::join;
 
 /// At most this many comparisons of a name with a part of a pattern, which take a few seconds.
@@ -141,12 +142,17 @@ impl Diagnostics {
     /// A number must lie from `low` to `high`, both included. Returns whether it does.
     pub fn between(&mut self, path: &str, value: impl Into<f64>, low: f64, high: f64) -> bool {
         let value = value.into();
-        self.must(path, value >= low && value <= high, &format!("must be from {low} to {high}"), value)
+        self.must(
+            path,
+            value >= low && value <= high,
+            &format!("must be from {} to {}", exact(low), exact(high)),
+            value,
+        )
     }
 
     fn must(&mut self, path: &str, holds: bool, rule: &str, value: f64) -> bool {
         if !holds {
-            self.error(path, format!("{rule}, got {value}"));
+            self.error(path, format!("{rule}, got {}", exact(value)));
         }
         holds
     }

@@ -4,9 +4,10 @@ use std::collections::BTreeSet;
 use std::fmt;
 use std::ops::Range;
 
-use annotate_snippets::{AnnotationKind, Group, Level, Origin, Renderer, Snippet};
+use annotate_snippets::{Annotation, AnnotationKind, Group, Level, Origin, Renderer, Snippet};
 use serde::Serialize;
 
+use super::hidden::{visible, visible_line};
 use super::source::{Lines, Source};
 
 /// The number of mistakes that are shown in full; the rest are counted.
@@ -191,7 +192,7 @@ impl SceneErrors {
 
     fn report<'a>(&'a self, error: &'a SceneError, all_lines: &[Lines]) -> Group<'a> {
         let (source, lines) = (&self.sources[error.source], &all_lines[error.source]);
-        let mut group = Group::with_title(Level::ERROR.primary_title(error.title()));
+        let mut group = Group::with_title(Level::ERROR.primary_title(visible_line(&error.title()).into_owned()));
         if let Some(span) = &error.span {
             let near = error.also.as_ref().filter(|(also, _)| also.start.abs_diff(span.start) < LONGEST_EXCERPT);
             let first = near.map_or(span.start, |(also, _)| also.start.min(span.start));
@@ -201,23 +202,24 @@ impl SceneErrors {
             let window = lines.span(first_line, (last_line + 1).min(lines.count()));
             let window = if window.len() > LONGEST_EXCERPT { lines.span(first_line, last_line) } else { window };
             if window.len() > LONGEST_EXCERPT {
-                let origin =
-                    Origin::path(&source.name).line(error.line.unwrap_or(1)).char_column(error.column.unwrap_or(1));
+                let origin = Origin::path(visible_line(&source.name))
+                    .line(error.line.unwrap_or(1))
+                    .char_column(error.column.unwrap_or(1));
                 group = group.element(origin);
             } else {
-                let shift = |span: &Range<usize>| span.start - window.start..span.end - window.start;
-                let mut snippet = Snippet::source(&source.text[window.clone()])
-                    .path(&source.name)
-                    .line_start(first_line)
-                    .annotation(AnnotationKind::Primary.span(shift(span)).label(&error.label));
+                let excerpt = Excerpt { text: &source.text, window };
+                let mut snippet = excerpt
+                    .snippet(&source.name, first_line)
+                    .annotation(AnnotationKind::Primary.span(excerpt.place(span)).label(visible_line(&error.label)));
                 if let Some((also, label)) = near {
-                    snippet = snippet.annotation(AnnotationKind::Context.span(shift(also)).label(label));
+                    snippet = snippet
+                        .annotation(AnnotationKind::Context.span(excerpt.place(also)).label(visible_line(label)));
                 }
                 group = group.element(snippet);
             }
             if let (Some((also, label)), None) = (&error.also, near) {
                 let (line, column) = lines.place(also.start);
-                group = group.element(Level::NOTE.message(format!("{label} at {line}:{column}")));
+                group = group.element(Level::NOTE.message(format!("{} at {line}:{column}", visible_line(label))));
             }
         }
         for mark in error.chain.iter().take(STEPS_SHOWN) {
@@ -232,9 +234,28 @@ impl SceneErrors {
             group = group.element(Level::NOTE.message(format!("the same mistake is made {times} more")));
         }
         if let Some(help) = &error.help {
-            group = group.element(Level::HELP.message(help));
+            group = group.element(Level::HELP.message(visible(help)));
         }
         group
+    }
+}
+
+/// Lines of a file, shown with hidden characters as escapes.
+struct Excerpt<'a> {
+    text: &'a str,
+    /// Their bytes in the file.
+    window: Range<usize>,
+}
+
+impl<'a> Excerpt<'a> {
+    fn snippet(&self, name: &'a str, first_line: usize) -> Snippet<'a, Annotation<'a>> {
+        Snippet::source(visible(&self.text[self.window.clone()])).path(visible_line(name)).line_start(first_line)
+    }
+
+    /// The place of a part of the file in the lines as they are shown.
+    fn place(&self, span: &Range<usize>) -> Range<usize> {
+        let shown = |end: usize| visible(&self.text[self.window.start..end]).len();
+        shown(span.start)..shown(span.end)
     }
 }
 
@@ -245,15 +266,15 @@ impl SceneErrors {
         let (line, column) = lines.place(mark.span.start);
         let window = lines.span(line, line);
         if window.len() > LONGEST_EXCERPT {
-            return group.element(Level::NOTE.message(format!("{} at {}:{line}:{column}", mark.label, source.name)));
+            let note = format!("{} at {}:{line}:{column}", mark.label, source.name);
+            return group.element(Level::NOTE.message(visible_line(&note).into_owned()));
         }
-        let end = mark.span.end.min(window.end).max(mark.span.start);
-        let place = mark.span.start - window.start..end - window.start;
+        let place = mark.span.start..mark.span.end.min(window.end).max(mark.span.start);
+        let excerpt = Excerpt { text: &source.text, window };
         group.element(
-            Snippet::source(&source.text[window])
-                .path(&source.name)
-                .line_start(line)
-                .annotation(AnnotationKind::Context.span(place).label(&mark.label)),
+            excerpt
+                .snippet(&source.name, line)
+                .annotation(AnnotationKind::Context.span(excerpt.place(&place)).label(visible_line(&mark.label))),
         )
     }
 }

@@ -9,6 +9,7 @@ use std::sync::Arc;
 use glam::DVec2;
 
 use super::diagnostics::{Diagnostic, Diagnostics};
+use super::hidden::is_hidden;
 use super::macros::Tables;
 use super::name_series::{self, Names};
 use super::suggest;
@@ -127,11 +128,13 @@ impl Outline {
     }
 
     /// Adds a name. `path` is its place relative to the section or entry, such as `"[3].name"`. A name is reported if
-    /// it is taken, is empty, or holds one of `* . , "` or a control character. Returns whether the name is good.
+    /// it is taken, is empty, or holds one of `* . , "` or a hidden character. Returns whether the name is good.
     pub fn declare(&mut self, kind: NameKind, name: &str, path: &str) -> bool {
         let path = join(&self.scope, path);
         let good = self.is_good(kind, name, &path);
-        if good {
+        // A name that is refused for its letters is known all the same: its uses are no further mistakes.
+        let known = |(_, names): (NameKind, &Names)| names.find(name).is_some();
+        if good || !name.is_empty() && !self.rivals(kind).any(known) {
             self.kinds.entry(kind).or_default().add(name, path);
         }
         good
@@ -169,13 +172,16 @@ impl Outline {
             self.report.error_at(path.to_owned(), message).help("give it a name that people can read");
             return false;
         }
-        if let Some(bad) = name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c.is_control()) {
+        if let Some(bad) =
+            name.chars().find(|&c| matches!(c, '*' | '.' | ',' | '"') || c == '\n' || c == '\t' || is_hidden(c))
+        {
             let why = match bad {
                 '*' => "`*` stands for any letters where bodies are chosen",
                 '.' => "`.` separates a name from its quantity, as in `ball.position.x`",
-                _ => "names become column headers of the CSV file",
+                ',' | '"' => "names become column headers of the CSV file",
+                _ => "people must be able to read a name and to write it",
             };
-            let message = format!("the name {name:?} must not contain {bad:?}");
+            let message = format!("the name \"{name}\" must not contain '{}'", bad.escape_debug());
             self.report.error_at(path.to_owned(), message).help(format!("{why}; use letters, digits and `_`"));
             return false;
         }

@@ -142,6 +142,16 @@ pub enum ShapeError {
     Empty,
 }
 
+/// A number as messages show it: with an exponent if it had dozens of digits without.
+struct Short(f64);
+
+impl fmt::Display for Short {
+    fn fmt(&self, text: &mut fmt::Formatter) -> fmt::Result {
+        let plain = self.0 == 0.0 || (1e-4..1e9).contains(&self.0.abs());
+        if plain { write!(text, "{}", self.0) } else { write!(text, "{:e}", self.0) }
+    }
+}
+
 impl fmt::Display for ShapeError {
     fn fmt(&self, text: &mut fmt::Formatter) -> fmt::Result {
         match *self {
@@ -149,28 +159,34 @@ impl fmt::Display for ShapeError {
             Self::EqualPoints { first, second } => write!(text, "points {first} and {second} are at one place"),
             Self::ZeroArea => write!(text, "all points lie on one line: the area is zero"),
             Self::SelfCrossing { first, second, at } => {
-                write!(text, "sides {first} and {second} meet at ({}, {})", at.x, at.y)
+                write!(text, "sides {first} and {second} meet at ({}, {})", Short(at.x), Short(at.y))
             }
             Self::NotConvex { point } => write!(text, "the outline bends inwards at point {point}"),
             Self::NotFinite { quantity } => write!(text, "{quantity} is NaN or infinite"),
             Self::OutOfRange { quantity, found } => {
-                write!(text, "{quantity} is {found} m: sizes lie between 1e-75 m and 1e75 m")
+                write!(text, "{quantity} is {} m: sizes lie between 1e-75 m and 1e75 m", Short(found))
             }
-            Self::NotPositive { quantity, found } => write!(text, "{quantity} must be above zero, found {found}"),
-            Self::Negative { quantity, found } => write!(text, "{quantity} must not be below zero, found {found}"),
+            Self::NotPositive { quantity, found } => {
+                write!(text, "{quantity} must be above zero, found {}", Short(found))
+            }
+            Self::Negative { quantity, found } => {
+                write!(text, "{quantity} must not be below zero, found {}", Short(found))
+            }
             Self::RoundingTooLarge { found, greatest } => {
-                write!(text, "a rounding of {found} m is too large: at most {greatest} m")
+                write!(text, "a rounding of {} m is too large: at most {} m", Short(found), Short(greatest))
             }
             Self::TooFew { quantity, found, least } => write!(text, "{quantity}: at least {least}, found {found}"),
             Self::TooMany { quantity, found, most } => write!(text, "{quantity}: at most {most}, found {found}"),
             Self::AngleOutOfRange { quantity, found, above, below } => {
                 let [found, above, below] = [found, above, below].map(f64::to_degrees);
-                write!(text, "{quantity} must lie between {above} deg and {below} deg, found {found} deg")
+                write!(text, "{quantity} must lie between {above} deg and {below} deg, found {} deg", Short(found))
             }
             Self::PointedTooth { tip_width } => {
-                write!(text, "the teeth are pointed: {tip_width} m wide at their tips")
+                write!(text, "the teeth are pointed: {} m wide at their tips", Short(tip_width))
             }
-            Self::ClosedGap { root_width } => write!(text, "the teeth meet at their roots: gaps of {root_width} m"),
+            Self::ClosedGap { root_width } => {
+                write!(text, "the teeth meet at their roots: gaps of {} m", Short(root_width))
+            }
             Self::Empty => write!(text, "a compound has at least one part"),
         }
     }

@@ -11,6 +11,7 @@ mod fast_sensors;
 mod few_contacts;
 mod first_steps;
 mod friction_cones;
+mod hidden_characters;
 mod impact;
 mod indeterminate;
 mod landings;

@@ -9,7 +9,7 @@ use super::Exit;
 use super::flags::{self, OverrideFlags};
 use super::load::{self, Request};
 use super::progress_bar::Progress;
-use super::say::{print_line, say};
+use super::say::{print_json, print_line, say};
 use crate::cli::author;
 use crate::report::bench::{self, BenchRequest, BenchResult, Stopped};
 use crate::scene::{SceneErrors, Source};
@@ -98,7 +98,7 @@ impl Bench {
         for (number, scene) in scenes.iter().enumerate() {
             match self.measure(scene, order, &progress) {
                 Ok((measured, bytes)) if self.json => {
-                    exit = exit.worse(print_line(&print::json(scene, &measured, bytes).to_string()));
+                    exit = exit.worse(print_json(&print::json(scene, &measured, bytes)));
                 }
                 Ok((measured, bytes)) => rows.push(print::Row::of(scene, measured, bytes)),
                 Err(stopped) => exit = exit.worse(progress.aside(|| self.tell(scene, &stopped))),

@@ -67,7 +67,7 @@ impl Explain {
 
     fn scene(&self, request: Request) -> Exit {
         match scene::Anatomy::of(request, &self.overrides) {
-            Ok(anatomy) if self.json => super::say::print_line(&anatomy.to_json(request.name).to_string()),
+            Ok(anatomy) if self.json => super::say::print_json(&anatomy.to_json(request.name)),
             Ok(anatomy) => super::say::print_line(anatomy.told(request.name).trim_end()),
             Err(exit) => exit,
         }

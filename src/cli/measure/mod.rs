@@ -13,7 +13,7 @@ use super::flags;
 use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress_bar::Progress;
-use super::say::{number, print_line, say};
+use super::say::{number, print_json, print_line, say};
 use crate::cli::author;
 use crate::output::{OutputError, write_picture, write_whole};
 use crate::raster::{Theme, draw_diagram};
@@ -150,12 +150,11 @@ impl Measure {
     fn tell(&self, request: Request, measured: &Measured) -> Exit {
         let mut exit = if measured.reference.is_err() || measured.all_fail() { Exit::RunWrong } else { Exit::Good };
         let run = self.run_with();
-        let text = if self.json {
-            print::json(&self.scene, measured, &run).to_string()
+        exit = exit.worse(if self.json {
+            print_json(&print::json(&self.scene, measured, &run))
         } else {
-            print::text(measured, &run).trim_end().to_owned()
-        };
-        exit = exit.worse(print_line(&text));
+            print_line(print::text(measured, &run).trim_end())
+        });
         for path in &self.output {
             let written = if ends_with(path, "csv") {
                 write_whole(path, print::csv(measured))

@@ -59,6 +59,7 @@ fn note(setting: &Setting) -> String {
                 FailureKind::Steps(step) => {
                     format!("steps have become as short as {step:.1e} s near `{}`", failure.body)
                 }
+                FailureKind::Jumps { step, .. } => format!("steps have become as short as {step:.1e} s between jumps"),
                 FailureKind::Contradiction => {
                     format!("motors and joints ask for different motions of `{}`", failure.body)
                 }

@@ -25,7 +25,7 @@ use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
 use super::load::{self, Request};
 use super::progress_bar::Progress;
-use super::say::{count, print_line, say};
+use super::say::{count, print_json, say};
 use super::side_by_side::{all_cores, in_order};
 use super::trial::Verdict;
 use crate::cli::author;
@@ -290,7 +290,7 @@ impl Sweep {
                     progress.aside(|| say(&format!("note: {message}. If you interrupt the sweep, it begins anew")));
                 }
                 if self.json {
-                    exit = exit.worse(print_line(&json(grid, run, &attempt).to_string()));
+                    exit = exit.worse(print_json(&json(grid, run, &attempt)));
                 }
                 attempts.push(attempt);
                 progress.step();

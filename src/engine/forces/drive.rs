@@ -19,7 +19,7 @@ use super::thrust::ThrustFrame;
 use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{self, Angle, ForcePair, LengthPair, Rate, Scalar, Spin, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry, exact};
 use crate::tick::snapshot::Memory;
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rhythm, State, SteadySpring, TickAppExt};
 
@@ -160,7 +160,8 @@ impl Course {
                 for (index, pair) in points.windows(2).enumerate() {
                     let (before, time) = (pair[0].0.si(), pair[1].0.si());
                     if time <= before {
-                        let message = format!("must be above the time before it, {before} s, got {time} s");
+                        let message =
+                            format!("must be above the time before it, {} s, got {} s", exact(before), exact(time));
                         report
                             .error(&format!("[0][{}]", index + 1), message)
                             .help("the points stand in the order of their times; a jump takes a short time");

@@ -14,7 +14,7 @@ use serde::Deserialize;
 
 use super::link::{self, DAMPING, ForceLink, LinkEnd, Partner};
 use crate::scene::units::{Damping, Length, LengthPair, Stiffness};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, WrittenEntry, exact};
 use crate::tick::critical_step;
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt};
@@ -126,7 +126,7 @@ impl Model for SpringForce {
         let length = *self.length.get_or_insert(distance);
         if distance == 0.0 && length > 0.0 {
             let path = format!("{}.length", self.path);
-            let message = format!("both ends are in one place: in which direction should {length} m lie?");
+            let message = format!("both ends are in one place: in which direction should {} m lie?", exact(length));
             let help = "move an end or an anchor, or give the spring no length: `length: 0`";
             let error = SceneError::new(path, message).with_help(help);
             world.get_resource_or_init::<LoadErrors>().0.push(error);

@@ -7,7 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::Word;
-use crate::scene::{Diagnostics, Outline, SceneAppExt, Section};
+use crate::scene::{Diagnostics, Outline, SceneAppExt, Section, exact};
 
 /// When forces jump (touch, part, stick, slip), inside a tick or at its end.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Deserialize, Serialize, JsonSchema)]
@@ -75,8 +75,11 @@ impl Section for ClockSection {
             && long
             && tick.si() > self.duration.si()
         {
-            let message =
-                format!("the tick of {} s is longer than the whole run of {} s", tick.si(), self.duration.si());
+            let message = format!(
+                "the tick of {} s is longer than the whole run of {} s",
+                exact(tick.si()),
+                exact(self.duration.si())
+            );
             report.error("tick", message).help("a tick is some milliseconds: write `tick: \"1 ms\"`, or leave it out");
         }
         self.method.check(outline, Self::METHODS, "method", report);
@@ -94,7 +97,10 @@ impl Section for ClockSection {
                 .help("leave out the tolerance, or write `method: Auto`");
         } else if tolerance.si() >= 1.0 {
             report
-                .error("tolerance", format!("an error of {} times the motion itself says nothing", tolerance.si()))
+                .error(
+                    "tolerance",
+                    format!("an error of {} times the motion itself says nothing", exact(tolerance.si())),
+                )
                 .help("write a share such as 1e-6: places are then wrong by a millionth of how far bodies go");
         }
     }

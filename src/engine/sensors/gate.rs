@@ -8,8 +8,8 @@
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
-use crate::scene::Diagnostics;
 use crate::scene::units::LengthPair;
+use crate::scene::{Diagnostics, exact};
 use crate::tick::{State, index_of};
 use crate::world::between::{MotionSample, position_between};
 
@@ -34,7 +34,7 @@ pub(super) fn check(ends: (LengthPair, LengthPair), report: &mut Diagnostics) {
     let (from, to) = (ends.0.si(), ends.1.si());
     let finite = report.finite_pair("gate", from) && report.finite_pair("gate", to);
     if finite && from == to {
-        let message = format!("the ends of a gate must differ, got ({}, {}) for both", to.x, to.y);
+        let message = format!("the ends of a gate must differ, got ({}, {}) for both", exact(to.x), exact(to.y));
         report.error("gate", message).help("for example `gate: ((-0.1, 0), (0.1, 0))`");
     }
 }

@@ -182,8 +182,8 @@ impl Simulation {
         Ok(Self { world, header, film, ticks, spent: Duration::ZERO, failure: None, origin: origin.clone() })
     }
 
-    /// The scene is refused for something that turned out in a run.
-    fn refused(&self, error: SceneError) -> SceneErrors {
+    /// A mistake of the scene that turned out after reading, with its place in the text.
+    pub fn refused(&self, error: SceneError) -> SceneErrors {
         scene::found_later(&self.world, &self.origin.source, vec![error])
     }
 

@@ -359,8 +359,12 @@ impl Tick<'_> {
         let worst = (0..bodies.len()).max_by(|a, b| acceleration(a).total_cmp(&acceleration(b)));
         let Clock { ticks, .. } = self.state.clock;
         let time = self.state.evaluation.time;
+        // Between steps that end at jumps lies at most a part of a step. The error of other steps has nothing to do with jumps.
+        let edge = self.next_edge(time);
+        let model = self.state.model_of_edge(time);
         let progress = &mut self.state.progress;
-        let wrong = FailureKind::Steps(step);
+        let wrong =
+            if edge - time <= 2.0 * step { FailureKind::Jumps { step, model } } else { FailureKind::Steps(step) };
         progress.trouble.get_or_insert(Trouble { body: worst, entity: None, wrong, tick: ticks + 1, time });
     }
 

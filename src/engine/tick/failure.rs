@@ -11,7 +11,7 @@ use crate::scene::number;
 pub struct Failure {
     /// Name of the first body that failed, or of the one with most of the energy.
     pub body: String,
-    /// Name of the other body or wall in it, or an empty text.
+    /// Name of the other body or wall in it, or the place of a force in the scene, or an empty text.
     pub other: String,
     /// The failure.
     pub wrong: FailureKind,
@@ -48,6 +48,13 @@ pub enum FailureKind {
     Energy(Created),
     /// The error would require steps of this many seconds, which would never end.
     Steps(f64),
+    /// Steps that end where a force jumps would never end.
+    Jumps {
+        /// The length of the last step, in s.
+        step: f64,
+        /// The index of the model whose force jumps, if it is not a prescribed motion.
+        model: Option<usize>,
+    },
     /// A joint could not be closed: so many metres are left.
     Joint {
         /// The largest gap.
@@ -124,6 +131,11 @@ impl std::fmt::Display for Failure {
                     if *step > 0.0 { format!("as short as {step:.1e} s") } else { "too short to pass time".to_owned() };
                 write!(f, "steps have become {short}")?;
                 format!(": the acceleration of `{body}` grows beyond all bounds")
+            }
+            FailureKind::Jumps { step, .. } => {
+                write!(f, "steps have become as short as {step:.1e} s")?;
+                let what = if other.is_empty() { "a load of the scene".to_owned() } else { format!("`{other}`") };
+                format!(": {what} jumps as often as that, and a step ends at each jump")
             }
             FailureKind::Joint { meters, dead } => {
                 write!(f, "a joint of `{body}` does not close, {} m are left,", number(*meters))?;

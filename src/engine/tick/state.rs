@@ -368,6 +368,12 @@ impl State {
         self.roles.edges.iter().map(|index| self.models[*index].next_edge(now)).fold(f64::INFINITY, f64::min)
     }
 
+    /// The index of the model whose forces or their rates jump first after a time.
+    pub(super) fn model_of_edge(&self, now: f64) -> Option<usize> {
+        let edge = |index: &usize| self.models[*index].next_edge(now);
+        self.roles.edges.iter().copied().min_by(|a, b| edge(a).total_cmp(&edge(b)))
+    }
+
     /// The name of the contact law, if there is one.
     pub fn contact_law(&self) -> Option<&'static str> {
         self.models().find_map(|model| self.law_of(model))

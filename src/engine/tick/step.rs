@@ -195,6 +195,9 @@ impl Trouble {
         let body = name(entity).unwrap_or_default();
         let other = match self.wrong {
             FailureKind::Crossed(other) | FailureKind::Behind(other) | FailureKind::Sunk(other) => name(Some(other)),
+            FailureKind::Jumps { model: Some(model), .. } => {
+                world.resource::<State>().models().nth(model).and_then(|model| model.rhythm()).map(|rhythm| rhythm.path)
+            }
             _ => None,
         };
         Failure { body, other: other.unwrap_or_default(), wrong: self.wrong, tick: self.tick, time: self.time }

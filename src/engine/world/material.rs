@@ -14,7 +14,7 @@ use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Density, Scalar, Stiffness};
 use crate::scene::values::{OrderedMap, Word};
-use crate::scene::{Diagnostics, NameKind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section, exact};
 
 /// The name of the default material. It always exists, and a scene may redefine it.
 pub const DEFAULT: &str = "default";
@@ -300,8 +300,11 @@ impl Friction {
         let sticking = report.not_negative("friction.static", self.sticking);
         let sliding = report.not_negative("friction.dynamic", self.sliding);
         if sticking && sliding && self.sliding.si() > self.sticking.si() {
-            let message =
-                format!("must not be above the static friction of {}, got {}", self.sticking.si(), self.sliding.si());
+            let message = format!(
+                "must not be above the static friction of {}, got {}",
+                exact(self.sticking.si()),
+                exact(self.sliding.si())
+            );
             report.error("friction.dynamic", message);
         }
     }

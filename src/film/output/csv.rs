@@ -7,6 +7,9 @@ use std::path::{Path, PathBuf};
 use super::OutputError;
 use super::partial_file::{PartFile, Unfinished};
 use super::raw::STANDARD_OUTPUT;
+use jostle_language::visible_line;
+
+pub use jostle_language::exact as number;
 
 /// A table in the making: a `.part` file until it is complete, or standard output.
 pub struct Table {
@@ -36,7 +39,7 @@ impl Table {
         for (name, unit) in columns {
             table.columns += 1;
             header.push(',');
-            header.push_str(name);
+            header.push_str(&visible_line(name));
             if !unit.is_empty() {
                 header.push_str(&format!(" [{unit}]"));
             }
@@ -74,27 +77,6 @@ impl Table {
         match self.way {
             Way::Out(mut out) => out.flush().map_err(|cause| OutputError::io(&self.path, cause)),
             Way::File(part) => part.complete(),
-        }
-    }
-}
-
-/// A number in the fewest digits that read back with the same bits. It has an exponent if that is shorter.
-pub fn number(value: f64) -> String {
-    let (full, exponent) = (value.to_string(), format!("{value:e}"));
-    if full.len() <= exponent.len() + 3 { full } else { exponent }
-}
-
-#[cfg(test)]
-mod tests {
-    use super::number;
-
-    #[test]
-    fn numbers_read_back_to_the_same_bits() {
-        for value in [0.0, -0.0, 0.1 + 0.2, 1e300, -2.5e-300, 5e-324, f64::MAX, 1.0 / 3.0, 123_456_789.0] {
-            assert_eq!(number(value).parse::<f64>().map(f64::to_bits), Ok(value.to_bits()));
-        }
-        for (value, text) in [(20.0, "20"), (0.001, "0.001"), (1e300, "1e300"), (-2.5e-9, "-2.5e-9")] {
-            assert_eq!(number(value), text);
         }
     }
 }

@@ -1,7 +1,7 @@
 //! The standard layout of a scene's text, which `jostle fmt` writes.
 //!
 //! The author's line breaks stay. Indentation, blanks, commas and blank lines are corrected, and sections follow the
-//! order of the manual. Numbers, texts and comments stay unchanged. The layout depends only on the content and its line
+//! order of the manual. Numbers, texts and comments stay unchanged, except that hidden characters become escapes. The layout depends only on the content and its line
 //! breaks. So a text in its standard layout is not changed.
 
 mod order;

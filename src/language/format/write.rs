@@ -1,6 +1,9 @@
 //! From values, comments and line breaks to text.
 
+use std::borrow::Cow;
+
 use super::parse::{Bracket, Comment, File, Item, Value};
+use crate::hidden::{is_hidden, visible};
 
 /// The indentation of the content of a bracket.
 const INDENT: usize = 4;
@@ -56,6 +59,22 @@ pub(super) fn write(file: &File) -> String {
     text
 }
 
+/// A part of a file with hidden characters as escapes, which mean the same in texts. A raw text becomes an ordinary one, as it
+/// has no escapes.
+fn without_hidden(part: &str) -> Cow<'_, str> {
+    let body = || part.strip_prefix('r')?.trim_matches('#').strip_prefix('"')?.strip_suffix('"');
+    if !part.contains(is_hidden) {
+        return Cow::Borrowed(part);
+    }
+    match body() {
+        None => visible(part),
+        Some(body) => {
+            let ordinary = body.replace('\\', r"\\").replace('"', "\\\"");
+            Cow::Owned(format!("\"{}\"", visible(&ordinary)))
+        }
+    }
+}
+
 /// The content of a bracket.
 enum Part<'a> {
     Comment(&'a Comment<'a>),
@@ -86,6 +105,7 @@ struct Writer {
 
 impl Writer {
     fn push(&mut self, text: &str) {
+        let text = &*without_hidden(text);
         self.line.push_str(text);
         match text.rfind('\n') {
             Some(end) => self.column = text[end + 1..].chars().count(),

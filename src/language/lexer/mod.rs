@@ -11,6 +11,7 @@ use std::collections::BTreeMap;
 use std::ops::Range;
 
 use super::error::SceneError;
+use super::hidden::is_hidden;
 use super::syntax::{Form, Id, Tree};
 pub(super) use literal::text_prefix;
 use literal::word_length;
@@ -410,10 +411,7 @@ impl Lexer<'_> {
                 if self.text.as_bytes().get(at).is_none_or(u8::is_ascii_graphic) {
                     return Ok(());
                 }
-                let hidden = |&c: &char| {
-                    c.is_whitespace() || c.is_control() || matches!(c, '\u{200b}'..='\u{200d}' | '\u{feff}')
-                };
-                match self.peek().filter(hidden) {
+                match self.peek().filter(|&c| c.is_whitespace() || is_hidden(c)) {
                     None => Ok(()),
                     Some(c) => {
                         let message = format!("an invisible character (U+{:04X}) stands here", u32::from(c));

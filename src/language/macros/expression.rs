@@ -4,7 +4,7 @@
 
 use std::ops::Range;
 
-use super::quantity::Number;
+use super::quantity::{Number, Unsuited};
 use crate::suggest;
 use crate::units::{self, Powers};
 
@@ -175,9 +175,10 @@ impl Reader<'_> {
         Ok(value)
     }
 
-    fn since(&self, start: usize, message: String) -> FormulaMistake {
+    fn since(&self, start: usize, why: impl Into<Unsuited>) -> FormulaMistake {
         let end = self.text[..self.at].trim_end().len();
-        wrong(start..end, message, None)
+        let Unsuited { message, help } = why.into();
+        wrong(start..end, message, help)
     }
 
     fn sum(&mut self) -> Outcome {
@@ -348,7 +349,7 @@ impl Reader<'_> {
     }
 }
 
-fn apply(name: &str, values: &[Number]) -> Result<Number, String> {
+fn apply(name: &str, values: &[Number]) -> Result<Number, Unsuited> {
     let a = values[0];
     let b = values.get(1).copied().unwrap_or_default();
     let angle = || {
@@ -382,8 +383,8 @@ fn apply(name: &str, values: &[Number]) -> Result<Number, String> {
             0.0
         })),
         "abs" => with(a.si.abs()),
-        "sqrt" => a.root(),
-        "pow" => a.raised(b),
+        "sqrt" => Ok(a.root()?),
+        "pow" => Ok(a.raised(b)?),
         "atan2" => a.common(b, "take the angle of").map(|_| Number::plain(libm::atan2(a.si, b.si))),
         "hypot" => a.common(b, "add").map(|powers| Number::new(libm::hypot(a.si, b.si), powers)),
         "mod" => a.common(b, "divide").map(|powers| Number::new(a.si - b.si * (a.si / b.si).floor(), powers)),

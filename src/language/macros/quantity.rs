@@ -2,6 +2,18 @@
 
 use crate::units::{self, Powers};
 
+/// Why an operation suits no such numbers, and perhaps a remedy.
+pub(super) struct Unsuited {
+    pub(super) message: String,
+    pub(super) help: Option<String>,
+}
+
+impl From<String> for Unsuited {
+    fn from(message: String) -> Self {
+        Self { message, help: None }
+    }
+}
+
 /// A number with the powers of its units. A number without units fits every quantity. It is then in SI units, as
 /// everywhere in a scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -32,14 +44,27 @@ impl Number {
 
     /// The common units of two numbers that are added, subtracted or compared. Both have the same units, or one has
     /// none.
-    pub(super) fn common(self, other: Self, verb: &str) -> Result<Powers, String> {
+    pub(super) fn common(self, other: Self, verb: &str) -> Result<Powers, Unsuited> {
         if self.powers == other.powers || other.is_plain() {
             Ok(self.powers)
         } else if self.is_plain() {
             Ok(other.powers)
         } else {
-            Err(format!("cannot {verb} {} and {}", self.kind(), other.kind()))
+            let message = format!("cannot {verb} {} and {}", self.kind(), other.kind());
+            Err(Unsuited { message, help: self.without_angles(other) })
         }
+    }
+
+    /// The remedy for two numbers whose units differ only in radians, as those of `r omega^2` and an acceleration do.
+    fn without_angles(self, other: Self) -> Option<String> {
+        let more = combined(self.powers, other.powers, |a, b| (a - b).abs()).ok()?;
+        (more == Powers { radian: more.radian, ..Powers::default() }).then(|| {
+            format!(
+                "they differ only in `{}`. An angle is a ratio of lengths: divide each angle by `1 rad`, as in `(ball.spin / 1 \
+                 rad)^2`",
+                units::base_units(more)
+            )
+        })
     }
 
     /// The product, or with `power` -1 the quotient.

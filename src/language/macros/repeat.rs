@@ -190,7 +190,9 @@ impl Expander {
 impl Layout {
     /// The values of `x`, `y` and on a circle `angle` at one place.
     fn place(&self, i: u64, j: u64, count: u64) -> Result<Vec<(&'static str, Number)>, String> {
-        let plus = |a: Number, b: Number| Ok::<_, String>(Number::new(a.si + b.si, a.common(b, "add")?));
+        let plus = |a: Number, b: Number| {
+            Ok::<_, String>(Number::new(a.si + b.si, a.common(b, "add").map_err(|why| why.message)?))
+        };
         let scaled = |a: Number, share: f64| Number { si: a.si * share, ..a };
         let minus = |a: Number, b: Number| plus(a, scaled(b, -1.0));
         match *self {

@@ -102,6 +102,9 @@ impl Evidence<'_> {
         if matches!(failure.wrong, FailureKind::Steps(_)) {
             return near::of_endless_steps(self);
         }
+        if matches!(failure.wrong, FailureKind::Jumps { .. }) {
+            return "let it jump less often: a servo by a lower `rate`, a table or path by points that are farther apart".to_owned();
+        }
         if matches!(failure.wrong, FailureKind::Pairs(_)) {
             return "use fewer bodies, keep them apart, or take a finer tick if they go far in one. Bodies that are not to touch \
                     take `collides: false`"

@@ -71,8 +71,9 @@ pub struct Penalty {
     pub normal: NormalLaw,
     /// Damping of `normal: Dashpot` in N s/m, the same for all pairs. Default: from the restitution of the pair.
     pub damping: Option<Damping>,
-    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`. All contacts
-    /// then lose their speed alike. It is the `gamma_n` of LAMMPS. Default: none.
+    /// Damping of `normal: Dashpot` over the effective mass of each contact, in 1/s, in place of `damping`. While bodies
+    /// touch, the amplitude of each contact then decays at half this rate. Heavier bodies touch for longer, and so they lose more.
+    /// It is the `gamma_n` of LAMMPS. Default: none.
     pub damping_rate: Option<Rate>,
     /// The law along the surface, friction. Default: `Spring(ratio: 0.8)`.
     pub tangential: TangentialLaw,

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Rate, Scalar, Time};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, NameKind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section, exact};
 
 /// The largest width and height of a film, in pixels.
 pub const LARGEST_SIZE: u64 = 8192;
@@ -61,9 +61,12 @@ impl FreezeEntry {
             (Some(at), None) => {
                 let (begin, end) = (film.begin(), film.end());
                 if report.not_negative("at", *at) && !(begin..=end).contains(&at.si()) {
-                    let lasts = if end.is_finite() { format!("to {end} s") } else { "on".to_owned() };
-                    let message =
-                        format!("must be a moment of the film, which shows {begin} s {lasts}, got {} s", at.si());
+                    let lasts = if end.is_finite() { format!("to {} s", exact(end)) } else { "on".to_owned() };
+                    let message = format!(
+                        "must be a moment of the film, which shows {} s {lasts}, got {} s",
+                        exact(begin),
+                        exact(at.si())
+                    );
                     report.error("at", message).help("change it, or the film's `from` and `to`");
                 }
             }
@@ -151,7 +154,10 @@ impl Section for FilmSection {
             && begins
             && to.si() <= from.si()
         {
-            report.error("to", format!("must be after `from`, which is {} s, got {} s", from.si(), to.si()));
+            report.error(
+                "to",
+                format!("must be after `from`, which is {} s, got {} s", exact(from.si()), exact(to.si())),
+            );
         }
         for (index, freeze) in self.freeze.iter().enumerate() {
             report.within(&format!("freeze[{index}]"), |report| freeze.check(self, outline, report));

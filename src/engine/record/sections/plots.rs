@@ -8,7 +8,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Scalar, Time};
 use crate::scene::values::{Names, WholeNumber};
-use crate::scene::{Diagnostics, NameKind, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Outline, Section, exact};
 use crate::sensors;
 
 /// The most bins that a reader can distinguish.
@@ -128,7 +128,7 @@ impl HistogramEntry {
 fn check_order(low: Scalar, high: Scalar, paths: (&str, &str), report: &mut Diagnostics) -> bool {
     let finite = report.finite(paths.0, low) & report.finite(paths.1, high);
     if finite && low.si() >= high.si() {
-        report.error(paths.1, format!("must be above {}, got {}", low.si(), high.si()));
+        report.error(paths.1, format!("must be above {}, got {}", exact(low.si()), exact(high.si())));
     }
     finite && low.si() < high.si()
 }
@@ -213,7 +213,7 @@ impl PlotEntry {
             && self.log
             && low.si() <= 0.0
         {
-            report.error("range[0]", format!("must be above zero if `log` is true, got {}", low.si()));
+            report.error("range[0]", format!("must be above zero if `log` is true, got {}", exact(low.si())));
         }
         if self.log && self.histogram.is_some() {
             report.error("log", "a histogram counts from zero, which `log` cannot show").help("leave out `log`");

@@ -7,7 +7,7 @@ use jostle_language::numbers::number;
 
 use super::{Outlines, Size, Wrong};
 use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
-use crate::scene::read_value;
+use crate::scene::{exact, read_value};
 use crate::shapes::outline::{Sided, SvgShape};
 
 /// `shape: Svg(..)`.
@@ -55,7 +55,11 @@ fn size(shape: &SvgShape) -> Result<Size, Wrong> {
     let numbers = [("height", shape.height), ("unit", shape.unit), ("tolerance", shape.tolerance)];
     for (field, length) in numbers {
         if let Some(length) = length.map(f64::from).filter(|length| !(*length > 0.0 && length.is_finite())) {
-            return Err((format!("must be above zero, got {length} m"), "for example: height: 0.2".to_owned(), field));
+            return Err((
+                format!("must be above zero, got {} m", exact(length)),
+                "for example: height: 0.2".to_owned(),
+                field,
+            ));
         }
     }
     let help = "`height: 0.2` is the height of the drawing in metres, `unit: \"1 mm\"` the length of one of its units";

@@ -10,7 +10,7 @@ use serde::Deserialize;
 
 use crate::scene::units::{Length, Speed};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section, number};
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 use crate::shapes::outline::OutlineShape;
 use crate::shapes::{AtomShape, AtomSpec};
@@ -155,12 +155,12 @@ impl Section for FillSection {
                 let area = std::f64::consts::PI * entry.sum_over_radii(square);
                 let share = area / entry.within.area();
                 let message = format!(
-                    "only {} of {} bodies {} room in the {} {apart}. All would take {:.0} % of its area",
+                    "only {} of {} bodies {} room in the {} {apart}. All would take {} % of its area",
                     placed.len(),
                     entry.count.0,
                     if placed.len() == 1 { "finds" } else { "find" },
                     entry.within.noun(),
-                    100.0 * share,
+                    number((100.0 * share).round()),
                 );
                 let narrow =
                     if share < SPARSE { ". Chance hardly meets so narrow a region: use a wider one" } else { "" };

@@ -3,8 +3,8 @@
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Diagnostics;
 use crate::scene::units::{Angle, LengthPair, SpeedPair, Spin, Time};
+use crate::scene::{Diagnostics, exact};
 use crate::world::kinematic::{Path, PathPoint};
 
 /// The motion of a body that no force pushes: evenly, `kinematic: (velocity: (1, 0), spin: 2)`, or from point to point,
@@ -57,7 +57,8 @@ impl KinematicEntry {
                 report.finite("spin", point.spin);
                 let time = point.time.si();
                 if report.positive("time", point.time) && time <= before {
-                    let message = format!("must be above the time before it, {before} s, got {time} s");
+                    let message =
+                        format!("must be above the time before it, {} s, got {} s", exact(before), exact(time));
                     report.error("time", message).help("the points of a path stand in the order of their times");
                 }
                 before = time;

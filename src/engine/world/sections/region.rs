@@ -7,8 +7,8 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
-use crate::scene::Diagnostics;
 use crate::scene::units::LengthPair;
+use crate::scene::{Diagnostics, exact};
 
 /// The largest number of corners.
 pub const MOST_CORNERS: usize = 1000;
@@ -107,11 +107,12 @@ impl Region {
             let (low, high) = self.bounds();
             let size = high - low;
             if !(size.x > 0.0 && size.y > 0.0 && size.is_finite()) {
-                let message = format!("the box must have width and height, got {} m by {} m", size.x, size.y);
+                let message =
+                    format!("the box must have width and height, got {} m by {} m", exact(size.x), exact(size.y));
                 report.error("", message).help("give two opposite corners: `within: ((0, 0), (6, 6))`");
             }
         } else if !(self.area() > 0.0 && self.area().is_finite()) {
-            let message = format!("the polygon must have an area, got {} m2", self.area());
+            let message = format!("the polygon must have an area, got {} m2", exact(self.area()));
             report.error("", message).help("give its corners in order, such as `((0, 0), (4, 0), (2, 3))`");
         }
     }

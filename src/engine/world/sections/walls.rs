@@ -8,7 +8,7 @@ use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 
 use crate::scene::units::{Length, LengthPair, SpeedPair};
-use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
+use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section, exact};
 use crate::world::{material, sections};
 
 /// One wall: the half-plane behind the line through two points. With `from` and `to` it is a strip with two round ends.
@@ -154,6 +154,9 @@ impl Section for WallsSection {
 }
 
 /// Fields of a half-plane, and of a strip.
+/// The remedy for two points whose distance has no finite square.
+const TOO_LONG: &str = "walls are shorter than 1e150 m";
+
 const HALF_PLANE: [&str; 2] = ["left", "right"];
 const STRIP: [&str; 2] = ["from", "to"];
 
@@ -245,11 +248,20 @@ impl WallEntry {
             let (before, x, y) = (two[0], two[1].x, two[1].y);
             let length = before.distance(two[1]);
             if field == "heights" && x <= before.x {
-                let message = format!("must lie to the right of the point before it, at x = {}, got x = {x}", before.x);
+                let message = format!(
+                    "must lie to the right of the point before it, at x = {}, got x = {}",
+                    exact(before.x),
+                    exact(x)
+                );
                 report.error(&place, message).help("heights ascend in x; a line that turns back stands in `line`");
-            } else if !(length > 0.0 && length.is_finite()) {
-                let message = format!("must differ from the point before it, got ({x}, {y}) for both");
+            } else if length == 0.0 {
+                let message =
+                    format!("must differ from the point before it, got ({}, {}) for both", exact(x), exact(y));
                 report.error(&place, message).help("leave one of both out");
+            } else if !length.is_finite() {
+                let message =
+                    format!("is too far from the point before it at ({}, {})", exact(before.x), exact(before.y));
+                report.error(&place, message).help(TOO_LONG);
             } else if index > 0 && turns_back(points[index - 1], before, two[1]) {
                 let message = "the line turns back onto itself here";
                 report.error(&place, message).help("between two pieces some room is left, however narrow");
@@ -295,9 +307,13 @@ impl WallEntry {
         let [first, last] = if self.is_strip() { [right, left] } else { [left, right] };
         let finite = report.finite_pair(fields[0], first) & report.finite_pair(fields[1], last);
         let length = (right - left).length();
-        if complete && finite && !(length > 0.0 && length.is_finite()) {
-            let message = format!("must differ from `{}`, got ({}, {}) for both", fields[0], last.x, last.y);
+        if complete && finite && length == 0.0 {
+            let message =
+                format!("must differ from `{}`, got ({}, {}) for both", fields[0], exact(last.x), exact(last.y));
             report.error(fields[1], message).help("a wall is the line through two points");
+        } else if complete && finite && !length.is_finite() {
+            let message = format!("is too far from `{}` at ({}, {})", fields[0], exact(first.x), exact(first.y));
+            report.error(fields[1], message).help(TOO_LONG);
         }
         let velocity = self.surface_velocity.si();
         if report.finite_pair("surface_velocity", velocity) && complete && finite && length > 0.0 {

@@ -5,7 +5,7 @@ use std::collections::BTreeMap;
 
 use glam::DVec2;
 
-use crate::scene::{cells, count, drop_empty_ends, separator, suggest};
+use crate::scene::{cells, count, drop_empty_ends, exact, separator, suggest};
 use crate::shapes::AtomSpec;
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 
@@ -105,7 +105,7 @@ impl PackingTable {
             let values = numbers(line, text, separator, &columns)?;
             let [x, y, radius, vx, vy, spin, angle, body] = values;
             if radius <= 0.0 {
-                let why = format!("must be above zero, got {radius}");
+                let why = format!("must be above zero, got {}", exact(radius));
                 return Err(wrong(line, Some("radius"), why, "give each atom a radius in metres"));
             }
             let body = if has_body {
