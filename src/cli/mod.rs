@@ -148,9 +148,9 @@ impl CommandLine {
     /// The command line of this process. If it is wrong or asks for help, the process ends with a message.
     pub fn read() -> Self {
         Self::try_parse().unwrap_or_else(|error| {
-            let message = error.to_string();
-            if message.contains(is_hidden) {
-                say::say(message.trim_end());
+            // The colours of the message are escapes themselves. If an argument holds another one, it stands without colours.
+            if std::env::args_os().any(|argument| argument.to_string_lossy().contains(is_hidden)) {
+                say::say(error.to_string().trim_end());
                 std::process::exit(error.exit_code());
             }
             error.exit()

@@ -181,7 +181,7 @@ impl Outline {
                 ',' | '"' => "names become column headers of the CSV file",
                 _ => "people must be able to read a name and to write it",
             };
-            let message = format!("the name \"{name}\" must not contain '{}'", bad.escape_debug());
+            let message = format!("the name \"{name}\" must not contain {bad:?}");
             self.report.error_at(path.to_owned(), message).help(format!("{why}; use letters, digits and `_`"));
             return false;
         }

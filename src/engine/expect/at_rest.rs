@@ -7,7 +7,7 @@ use serde::Deserialize;
 use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Speed, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry, exact};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 
 /// From a time on, every point of the bodies is slower than a speed, at every tick.
@@ -74,7 +74,7 @@ impl Watch for Watching {
 
     fn verdict(&self) -> (Option<bool>, String) {
         let Some((speed, time)) = self.fastest else {
-            return (None, format!("nothing before t = {} s counts", self.from));
+            return (None, format!("nothing before t = {} s counts", exact(self.from)));
         };
         (Some(speed < self.below), format!("fastest {speed:.3e} m/s at t = {time:.4} s"))
     }

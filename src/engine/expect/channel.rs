@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch};
 use crate::scene::units::{Scalar, Time};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry, exact};
 use crate::sensors::{self, energy};
 use crate::tick::energy::EnergyLedger;
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
@@ -86,7 +86,9 @@ impl Watch for Watching {
 
     fn verdict(&self) -> (Option<bool>, String) {
         let Some(channel) = &self.channel else { return (Some(false), "there is no such channel".to_owned()) };
-        let Some((value, time)) = self.largest else { return (None, format!("t = {} s was not reached", self.from)) };
+        let Some((value, time)) = self.largest else {
+            return (None, format!("t = {} s was not reached", exact(self.from)));
+        };
         (Some(value < self.below), format!("largest {value:.3e} {} at t = {time:.4} s", channel.unit))
     }
 }

@@ -7,7 +7,7 @@ use serde::Deserialize;
 
 use super::{Expectations, Sight, Watch, indices};
 use crate::scene::units::{Length, LengthPair as Place, Time};
-use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry, exact};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::world::between::{MotionSample, position_between};
 
@@ -88,7 +88,7 @@ impl Watch for Watching {
     }
 
     fn verdict(&self) -> (Option<bool>, String) {
-        let Some(found) = self.found else { return (None, format!("t = {} s was not reached", self.at)) };
+        let Some(found) = self.found else { return (None, format!("t = {} s was not reached", exact(self.at))) };
         let distance = found.distance(self.is);
         (Some(distance <= self.within), format!("({:.9}, {:.9}), {distance:.3e} m away", found.x, found.y))
     }

@@ -14,7 +14,7 @@ use super::between_ticks::{REMEDY, clock_of_whole_ticks, is_between, paths, perc
 use super::{AppliedAt, Targets, check_targets};
 use crate::scene::units::{ForcePair, LengthPair, Time};
 use crate::scene::values::Names;
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry, exact};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{Clock, Departure, Energies, EvaluationMode, Model, Rates, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
@@ -60,7 +60,7 @@ impl Entry for Thrust {
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         check_targets(Some(&self.of), outline, report);
         if self.to.is_some_and(|to| to.si() <= self.from.si()) {
-            report.error("to", format!("must be later than `from`, {} s", self.from.si()));
+            report.error("to", format!("must be later than `from`, {} s", exact(self.from.si())));
         }
     }
 
@@ -175,7 +175,7 @@ impl ThrustForce {
         let asked = self.to.min(clock.time()) - self.from.max(0.0);
         let share = (end - begin) / asked - 1.0;
         // To the nanosecond: rounded further, both might read the same.
-        let at = |time: f64| (time * 1e9).round() / 1e9;
+        let at = |time: f64| exact((time * 1e9).round() / 1e9);
         let times = match self.to {
             f64::INFINITY => format!("from {} s on", at(self.from)),
             to => format!("from {} s to {} s", at(self.from), at(to)),

@@ -359,9 +359,9 @@ impl Tick<'_> {
         let worst = (0..bodies.len()).max_by(|a, b| acceleration(a).total_cmp(&acceleration(b)));
         let Clock { ticks, .. } = self.state.clock;
         let time = self.state.evaluation.time;
-        // Between steps that end at jumps lies at most a part of a step. The error of other steps has nothing to do with jumps.
+        // If jumps end the steps, the next one is a step away, or less by rounding and a cut. Otherwise their error ends them.
         let edge = self.next_edge(time);
-        let model = self.state.model_of_edge(time);
+        let model = self.state.model_of_edge(time, edge);
         let progress = &mut self.state.progress;
         let wrong =
             if edge - time <= 2.0 * step { FailureKind::Jumps { step, model } } else { FailureKind::Steps(step) };

@@ -368,10 +368,9 @@ impl State {
         self.roles.edges.iter().map(|index| self.models[*index].next_edge(now)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The index of the model whose forces or their rates jump first after a time.
-    pub(super) fn model_of_edge(&self, now: f64) -> Option<usize> {
-        let edge = |index: &usize| self.models[*index].next_edge(now);
-        self.roles.edges.iter().copied().min_by(|a, b| edge(a).total_cmp(&edge(b)))
+    /// The index of the first model whose forces or their rates jump at `edge`, with none of its jumps from `now` to then.
+    pub(super) fn model_of_edge(&self, now: f64, edge: f64) -> Option<usize> {
+        self.roles.edges.iter().copied().find(|index| self.models[*index].next_edge(now) == edge)
     }
 
     /// The name of the contact law, if there is one.

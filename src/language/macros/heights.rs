@@ -9,8 +9,8 @@ use super::quantity::Number;
 use super::scope::{Scope, Value};
 use super::table_file::{Columns, Words};
 use super::{Expander, Outcome};
-use crate::count;
 use crate::syntax::{Form, Id};
+use crate::{count, exact};
 
 /// The field that holds them.
 pub(super) const FIELD: &str = "heights";
@@ -79,7 +79,8 @@ impl Expander {
             return Err(Box::new(error.with_help(format!("for example: {OF_FUNCTION}"))));
         }
         if from.si >= to.si {
-            let error = self.wrong_value(context, to_id, &format!("a place to the right of `from`, {} m", from.si));
+            let error =
+                self.wrong_value(context, to_id, &format!("a place to the right of `from`, {} m", exact(from.si)));
             return Err(Box::new(error.with_help("a ground goes from left to right")));
         }
         let mut points = Vec::new();

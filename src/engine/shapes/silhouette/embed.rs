@@ -6,7 +6,7 @@ use std::path::Path;
 use super::{Covering, Fineness, Mask};
 use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
 use crate::scene::values::WholeNumber;
-use crate::scene::{Diagnostics, read_value, suggest};
+use crate::scene::{Diagnostics, exact, read_value, suggest};
 use crate::shapes::png::{MOST_ATOMS, Png};
 
 /// `atoms: Png(..)`.
@@ -112,7 +112,8 @@ fn cover(mask: &Mask, fineness: Fineness, png: &Png) -> Result<Covering, Wrong> 
         let pixel = mask.resolution() * height;
         let estimate = mask.estimate(radius);
         if estimate > MOST_ATOMS as f64 {
-            let message = format!("about {estimate:.0} atoms of this radius are needed, more than {MOST_ATOMS}");
+            let message =
+                format!("about {} atoms of this radius are needed, more than {MOST_ATOMS}", exact(estimate.round()));
             return Err((message, "a larger `radius`, or `count` with discs of different sizes".into(), "radius"));
         }
         if radius < mask.resolution() {
@@ -121,7 +122,7 @@ fn cover(mask: &Mask, fineness: Fineness, png: &Png) -> Result<Covering, Wrong> 
         }
     }
     mask.cover(fineness).ok_or_else(|| {
-        let message = format!("no atom of this radius fits a silhouette {height} m high");
+        let message = format!("no atom of this radius fits a silhouette {} m high", exact(height));
         (message, "a smaller `radius`, or `count` with discs of different sizes".into(), "radius")
     })
 }

@@ -82,7 +82,10 @@ impl Outlines {
         let few = |curve: &curve::Curve| curve.chords(tolerance / unit).min(MOST_POINTS + 1);
         let count: usize = contours.iter().flat_map(|contour| &contour.curves).map(few).sum();
         if count > MOST_POINTS {
-            let message = format!("more than {MOST_POINTS} points are needed for a tolerance of {tolerance} m");
+            let message = format!(
+                "more than {MOST_POINTS} points are needed for a tolerance of {} m",
+                crate::scene::exact(tolerance)
+            );
             return Err((message, "a larger `tolerance`, or a simpler drawing".to_owned(), "tolerance"));
         }
         let mut polygons = flattened(tolerance);

@@ -147,7 +147,7 @@ impl Section for FillSection {
             if (placed.len() as u64) < entry.count.0 {
                 let gap = entry.gap.si();
                 let (apart, smaller) = if gap > 0.0 {
-                    (format!("{gap} m apart from any other"), "`gap`")
+                    (format!("{} m apart from any other", number(gap)), "`gap`")
                 } else {
                     ("without touching anything".to_owned(), if entry.shape.is_some() { "shapes" } else { "atoms" })
                 };

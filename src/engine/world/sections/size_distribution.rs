@@ -8,8 +8,8 @@ use rand_chacha::rand_core::{Rng, SeedableRng};
 use schemars::JsonSchema;
 use serde::Deserialize;
 
-use crate::scene::Diagnostics;
 use crate::scene::units::Length;
+use crate::scene::{Diagnostics, exact};
 
 /// Places and radii of a fill come from different streams of one seed.
 const STREAM: u64 = 1;
@@ -111,7 +111,7 @@ impl Radii {
 }
 
 fn upside_down(least: Length, most: Length) -> String {
-    format!("the least radius, {} m, is above the greatest, {} m", least.si(), most.si())
+    format!("the least radius, {} m, is above the greatest, {} m", exact(least.si()), exact(most.si()))
 }
 
 /// Numbers from 0 up to, not including, 1: the upper 53 bits.

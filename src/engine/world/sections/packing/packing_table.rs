@@ -220,7 +220,7 @@ impl PackingTable {
                 let arm = row.position - body.position;
                 let off = (row.velocity - body.velocity - body.spin * arm.perp()).length();
                 if off > RIGID * fastest {
-                    let why = format!("moves otherwise than the body that it belongs to, by {off} m/s");
+                    let why = format!("moves otherwise than the body that it belongs to, by {} m/s", exact(off));
                     let help = "`vx` and `vy` are the velocity of the atom's own centre, as the body moves and turns";
                     return Err(wrong(row.line, None, why, help));
                 }
