@@ -201,8 +201,7 @@ fn write_channels(
     let mut table = Table::create(path, columns)?;
     let run = loop {
         let measured = simulation.get_resource::<Channels>().unwrap_or(&none);
-        let values = measured.iter().map(|channel| simulation.value(channel));
-        table.row(simulation.clock().time(), values)?;
+        table.row(simulation.clock().time(), simulation.values(measured.iter()))?;
         let (done, end) = (simulation.clock().ticks, simulation.ticks());
         if done == end {
             break Ok(());

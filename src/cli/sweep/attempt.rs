@@ -90,9 +90,8 @@ fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure>
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     loop {
         if let Some(channels) = simulation.get_resource::<Channels>() {
-            for (track, channel) in tracks.iter_mut().zip(channels.iter()) {
-                track.see(simulation.value(channel));
-            }
+            let values = simulation.values(channels.iter());
+            tracks.iter_mut().zip(values).for_each(|(track, value)| track.see(value));
         }
         let (done, end) = (simulation.clock().ticks, simulation.ticks());
         if done == end {

@@ -9,6 +9,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
@@ -33,9 +34,8 @@ struct Clearance {
     b: String,
 }
 
-/// The sensors of the scene: each with its name, a body, and the other body or wall.
-#[derive(Resource, Default)]
-struct Asked(Vec<(String, Entity, Entity)>);
+/// The sensors of the scene: each with a body, and the other body or wall.
+type Asked = Named<(Entity, Entity)>;
 
 impl Entry for Clearance {
     const SECTION: &'static str = "sensors";
@@ -59,7 +59,7 @@ impl Entry for Clearance {
         for WrittenEntry { value: Self { name, a, b }, .. } in entries {
             let other = body_named(world, &b).or_else(|| wall_named(world, &b));
             let Some((a, b)) = body_named(world, &a).zip(other) else { continue };
-            world.get_resource_or_init::<Asked>().0.push((name.clone(), a, b));
+            world.get_resource_or_init::<Asked>().push(&name, (a, b));
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -69,7 +69,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     if !QUANTITIES.contains(&quantity) {
         return None;
     }
-    let (_, a, b) = *world.get_resource::<Asked>()?.0.iter().find(|(name, ..)| name == owner)?;
+    let (a, b) = *world.get_resource::<Asked>()?.of(owner)?;
     let value = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
         let Some(first) = Side::of(world, a) else { return f64::NAN };

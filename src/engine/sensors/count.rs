@@ -6,6 +6,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, declare};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
@@ -29,8 +30,7 @@ struct Count {
 }
 
 /// The sensors of the scene.
-#[derive(Resource, Default)]
-struct Asked(Vec<(String, Group)>);
+type Asked = Named<Group>;
 
 impl Entry for Count {
     const SECTION: &'static str = "sensors";
@@ -49,14 +49,14 @@ impl Entry for Count {
         let world = app.world_mut();
         for WrittenEntry { value: Self { name, of, within }, .. } in entries {
             let group = Group::new(&of, within, outline, world);
-            world.get_resource_or_init::<Asked>().0.push((name.clone(), group));
+            world.get_resource_or_init::<Asked>().push(&name, group);
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let index = world.get_resource::<Asked>()?.0.iter().position(|(name, _)| name == owner)?;
+    let index = world.get_resource::<Asked>()?.place(owner)?;
     let (unit, is_mass) = match quantity {
         "count" => ("", false),
         "mass" => ("kg", true),
@@ -64,9 +64,9 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let read = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
-        let group = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
+        let group = world.get_resource::<Asked>().and_then(|asked| asked.get(index));
         let of = |(_, body): (usize, usize)| if is_mass { bodies.mass[body] } else { 1.0 };
-        group.map_or(f64::NAN, |(_, group)| group.present(world).map(of).fold(0.0, |sum, more| sum + more))
+        group.map_or(f64::NAN, |group| group.present(world).map(of).fold(0.0, |sum, more| sum + more))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, read))
 }

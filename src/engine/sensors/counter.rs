@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::contacts::owners;
 use super::gate::{self, Gate, LastLook};
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, body_named, declare, wall_named};
 use crate::contacts::ContactEvents;
 use crate::contacts::events::{FindContactEvents, watch};
@@ -46,8 +47,7 @@ enum Looked {
 }
 
 /// The counters of the scene.
-#[derive(Resource, Default)]
-struct Counted(Vec<(String, Looked)>);
+type Counted = Named<Looked>;
 
 /// The counts of a run, one for each counter.
 #[derive(Resource, Default, Serialize, Deserialize)]
@@ -108,7 +108,7 @@ impl Entry for Counter {
             look(world, &looked);
             let quantities = if matches!(looked, Looked::Gate(..)) { QUANTITIES } else { &QUANTITIES[..1] };
             world.get_resource_or_init::<Counts>().0.push(Count::default());
-            world.get_resource_or_init::<Counted>().0.push((name.clone(), looked));
+            world.get_resource_or_init::<Counted>().push(&name, looked);
             add_found(world, quantities.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -121,8 +121,8 @@ fn sorted(mut entities: Vec<Entity>) -> Vec<Entity> {
 
 /// Adds the observer of ticks, once for each kind of counter.
 fn look(world: &mut World, looked: &Looked) {
-    let is_alike = |(_, other): &(String, Looked)| std::mem::discriminant(other) == std::mem::discriminant(looked);
-    if world.get_resource_or_init::<Counted>().0.iter().any(is_alike) {
+    let is_alike = |other: &Looked| std::mem::discriminant(other) == std::mem::discriminant(looked);
+    if world.get_resource_or_init::<Counted>().iter().any(is_alike) {
         return;
     }
     match looked {
@@ -135,7 +135,7 @@ fn look(world: &mut World, looked: &Looked) {
 }
 
 fn count_contacts(events: Res<ContactEvents>, counted: Res<Counted>, mut counts: ResMut<Counts>) {
-    for ((_, looked), count) in counted.0.iter().zip(&mut counts.0) {
+    for (looked, count) in counted.iter().zip(&mut counts.0) {
         let Looked::Contacts(of, others) = looked else { continue };
         let has = |list: &[Entity], entity: Entity| list.binary_search(&entity).is_ok();
         let counts = |a: Entity, b: Entity| has(of, a) && has(others, b);
@@ -146,7 +146,7 @@ fn count_contacts(events: Res<ContactEvents>, counted: Res<Counted>, mut counts:
 
 fn count_passages(world: &mut World) {
     world.resource_scope(|world, mut counts: Mut<Counts>| {
-        for ((_, looked), count) in world.resource::<Counted>().0.iter().zip(&mut counts.0) {
+        for (looked, count) in world.resource::<Counted>().iter().zip(&mut counts.0) {
             let Looked::Gate(gate) = looked else { continue };
             let passed = gate.passages(&mut count.before, world);
             count.count += passed.len() as u64;
@@ -157,10 +157,10 @@ fn count_passages(world: &mut World) {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let counted = &world.get_resource::<Counted>()?.0;
-    let index = counted.iter().position(|(name, _)| name == owner)?;
+    let counted = world.get_resource::<Counted>()?;
+    let index = counted.place(owner)?;
     let is_net = quantity == "count.net";
-    if is_net && !matches!(counted[index].1, Looked::Gate(..)) {
+    if is_net && !matches!(counted.get(index), Some(Looked::Gate(..))) {
         return None;
     }
     let read = move |world: &World| {

@@ -13,6 +13,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::{Channel, SensorAppExt, add_found, check_channel, declare, find, missing};
+use crate::scene::units::Powers;
 use crate::scene::{Diagnostics, Entry, Formula, Mistake, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{AfterLoad, LoadErrors};
@@ -40,17 +41,42 @@ struct Expression {
 #[derive(Resource, Default)]
 struct Expressions {
     list: Vec<Asked>,
-    /// Indices of the expressions that are under construction, by which a cycle is found.
-    open: Vec<usize>,
+    places: BTreeMap<String, usize>,
     /// The words for quantities, for messages.
     words: Vec<&'static str>,
+    /// The values so far while several channels of one moment are read together.
+    together: Mutex<Option<Values>>,
 }
+
+/// Values of expressions at one moment, by their places in the list.
+type Values = BTreeMap<usize, f64>;
 
 struct Asked {
     name: String,
-    text: String,
+    formula: Formula,
     /// The path of the sensor in the scene.
     path: String,
+    /// The names in it, each once, with the places of those that are expressions.
+    names: Result<Vec<(String, Option<usize>)>, Mistake>,
+    made: Option<Made>,
+}
+
+/// An expression whose parts are known.
+struct Made {
+    parts: BTreeMap<String, Part>,
+    unit: &'static str,
+}
+
+enum Part {
+    Expression(usize),
+    Channel(Channel),
+}
+
+/// The progress of making several expressions at one moment.
+#[derive(Default)]
+struct Making {
+    failed: BTreeMap<usize, Mistake>,
+    values: Values,
 }
 
 impl Entry for Expression {
@@ -80,14 +106,27 @@ impl Entry for Expression {
 
     fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {
         let mentions = outline.entries(Self::SECTION).iter().filter(|mention| mention.name == Self::NAME);
-        let asked =
-            entries.into_iter().zip(mentions).map(|(WrittenEntry { value: Self { name, of }, .. }, mention)| Asked {
-                name,
-                text: of,
-                path: format!("{}.of", mention.path),
+        let mut expressions = Expressions {
+            words: outline.words(super::QUANTITIES).map(|(word, _)| word).collect(),
+            ..Expressions::default()
+        };
+        for (place, entry) in entries.iter().enumerate() {
+            expressions.places.entry(entry.value.name.clone()).or_insert(place);
+        }
+        for (WrittenEntry { value: Self { name, of }, .. }, mention) in entries.into_iter().zip(mentions) {
+            let formula = Formula::new(of);
+            let place = |name: &str| {
+                let (owner, quantity) = name.split_once('.')?;
+                expressions.places.get(owner).copied().filter(|_| quantity == QUANTITY)
+            };
+            let names = formula.names().map(|names| {
+                let each: BTreeSet<String> = names.into_iter().collect();
+                each.into_iter().map(|name| (place(&name), name)).map(|(place, name)| (name, place)).collect()
             });
-        let words = outline.words(super::QUANTITIES).map(|(word, _)| word).collect();
-        app.insert_resource(Expressions { list: asked.collect(), open: Vec::new(), words });
+            let path = format!("{}.of", mention.path);
+            expressions.list.push(Asked { name, formula, path, names, made: None });
+        }
+        app.insert_resource(expressions);
         // By then all channels are there that one may name.
         app.world_mut().get_resource_or_init::<AfterLoad>().0.push(put_together);
     }
@@ -95,9 +134,10 @@ impl Entry for Expression {
 
 /// Makes the channels of all expressions, and reports those that cannot be.
 fn put_together(world: &mut World) {
+    let (mut making, mut names) = (Making::default(), Vec::new());
     for index in 0..world.resource::<Expressions>().list.len() {
-        match channel(world, index) {
-            Ok(channel) => add_found(world, [channel.name]),
+        match make(world, index, &mut making) {
+            Ok(()) => names.push(format!("{}.{QUANTITY}", world.resource::<Expressions>().list[index].name)),
             Err(Mistake { message, help }) => {
                 let path = world.resource::<Expressions>().list[index].path.clone();
                 let help = help.unwrap_or_else(|| format!("for example {}", Expression::EXAMPLE));
@@ -105,50 +145,159 @@ fn put_together(world: &mut World) {
             }
         }
     }
+    add_found(world, names);
 }
 
-/// The channel of an expression.
-fn channel(world: &mut World, index: usize) -> Result<Channel, Mistake> {
-    let Expressions { list, open, .. } = &mut *world.resource_mut::<Expressions>();
-    let Asked { name, text, .. } = &list[index];
-    if open.contains(&index) {
-        let message = format!("the expression `{name}` is part of itself");
-        return Err(Mistake { message, help: Some("let it name other channels".to_owned()) });
+/// Makes an expression, after those that it names. Each is made once, and a chain of them takes no stack.
+fn make(world: &mut World, root: usize, making: &mut Making) -> Result<(), Mistake> {
+    // Expressions under construction, each with the number of its names that were looked at.
+    let mut open = vec![(root, 0)];
+    let mut is_open = BTreeSet::from([root]);
+    while let Some((index, seen)) = open.last_mut() {
+        let list = &world.resource::<Expressions>().list;
+        let done = |index: usize, making: &Making| list[index].made.is_some() || making.failed.contains_key(&index);
+        if done(*index, making) {
+            is_open.remove(index);
+            open.pop();
+            continue;
+        }
+        let names = list[*index].names.as_ref().map_or(&[][..], |names| &names[..]);
+        let inner = names.iter().skip(*seen).find_map(|(_, place)| {
+            *seen += 1;
+            place.filter(|place| !done(*place, making))
+        });
+        match inner {
+            Some(inner) if is_open.insert(inner) => open.push((inner, 0)),
+            Some(inner) => {
+                let from = open.iter().position(|(index, _)| *index == inner).unwrap_or_default();
+                for (index, _) in &open[from..] {
+                    let message = format!("the expression `{}` is part of itself", list[*index].name);
+                    let help = Some("let it name other channels".to_owned());
+                    making.failed.insert(*index, Mistake { message, help });
+                }
+            }
+            None => {
+                let index = *index;
+                match made(world, index, making) {
+                    Ok(made) => world.resource_mut::<Expressions>().list[index].made = Some(made),
+                    Err(mistake) => {
+                        making.failed.insert(index, mistake);
+                    }
+                }
+            }
+        }
     }
-    open.push(index);
-    let (name, formula) = (name.clone(), Formula::new(text.as_str()));
-    let parts = parts(world, &formula);
-    world.resource_mut::<Expressions>().open.pop();
-    let parts = parts?;
-    let value = move |world: &World, parts: &BTreeMap<String, Channel>| {
-        formula.value(|name| parts.get(name).map(|channel| (channel.value(world), channel.unit)))
-    };
-    let (_, powers) = value(world, &parts)?;
-    let own: Vec<&'static str> = parts.values().map(|channel| channel.unit).collect();
-    let symbol = Formula::symbol(powers, &[&own[..], &SYMBOLS].concat());
-    // The unit of a length to the power of a channel depends on a value, so later evaluations may fail.
-    let read = move |world: &World| value(world, &parts).map_or(f64::NAN, |(value, _)| value);
-    Ok(Channel::of_resources(format!("{name}.{QUANTITY}"), kept(symbol), read))
+    making.failed.get(&root).map_or(Ok(()), |mistake| Err(mistake.clone()))
 }
 
-/// The channels that a formula names.
-fn parts(world: &mut World, formula: &Formula) -> Result<BTreeMap<String, Channel>, Mistake> {
-    let names: BTreeSet<String> = formula.names()?.into_iter().collect();
+/// An expression of which all named expressions were made, or failed.
+fn made(world: &mut World, index: usize, making: &mut Making) -> Result<Made, Mistake> {
+    let names = world.resource::<Expressions>().list[index].names.clone()?;
     let mut parts = BTreeMap::new();
-    for name in names {
-        let owner = name.split_once('.').and_then(|(owner, quantity)| (quantity == QUANTITY).then_some(owner));
-        let inner = world.resource::<Expressions>().list.iter().position(|asked| Some(&*asked.name) == owner);
-        let found = match inner {
-            Some(inner) => channel(world, inner)?,
-            None => find(world, &name).ok_or_else(|| {
+    for (name, place) in names {
+        let part = match place {
+            Some(place) => match making.failed.get(&place) {
+                Some(mistake) => return Err(mistake.clone()),
+                None => Part::Expression(place),
+            },
+            None => Part::Channel(find(world, &name).ok_or_else(|| {
                 let words = world.resource::<Expressions>().words.clone();
                 let (message, help) = missing(world, &words, &name);
                 Mistake { message, help: Some(help) }
-            })?,
+            })?),
         };
-        parts.insert(name, found);
+        parts.insert(name, part);
     }
-    Ok(parts)
+    let expressions = world.resource::<Expressions>();
+    let mut made = Made { parts, unit: "" };
+    made.inner().for_each(|place| {
+        expressions.value(place, world, &mut making.values);
+    });
+    let (value, powers) = made.value(&expressions.list[index].formula, expressions, world, &making.values)?;
+    making.values.insert(index, value);
+    let own: Vec<&'static str> = made.parts.values().map(|part| part.unit(expressions)).collect();
+    made.unit = kept(Formula::symbol(powers, &[&own[..], &SYMBOLS].concat()));
+    Ok(made)
+}
+
+impl Part {
+    fn unit(&self, expressions: &Expressions) -> &'static str {
+        match self {
+            Self::Expression(place) => expressions.list[*place].made.as_ref().map_or("", |made| made.unit),
+            Self::Channel(channel) => channel.unit,
+        }
+    }
+}
+
+impl Made {
+    /// The places of the expressions that it names.
+    fn inner(&self) -> impl Iterator<Item = usize> {
+        self.parts.values().filter_map(|part| if let Part::Expression(place) = part { Some(*place) } else { None })
+    }
+
+    /// Its value, if `values` holds those of the expressions that it names. Each of its channels is read once.
+    fn value(
+        &self,
+        formula: &Formula,
+        expressions: &Expressions,
+        world: &World,
+        values: &Values,
+    ) -> Result<(f64, Powers), Mistake> {
+        let mut read: BTreeMap<&str, f64> = BTreeMap::new();
+        formula.value(|name| {
+            let (name, part) = self.parts.get_key_value(name)?;
+            let value = *read.entry(name).or_insert_with(|| match part {
+                Part::Expression(place) => values.get(place).copied().unwrap_or(f64::NAN),
+                Part::Channel(channel) => channel.value(world),
+            });
+            Some((value, part.unit(expressions)))
+        })
+    }
+}
+
+impl Expressions {
+    /// The value of an expression. Those that it names join `values`: each is worked out once.
+    fn value(&self, root: usize, world: &World, values: &mut Values) -> f64 {
+        let mut open = vec![root];
+        while let Some(&index) = open.last() {
+            let Asked { formula, made: Some(made), .. } = &self.list[index] else { return f64::NAN };
+            let depth = open.len();
+            if !values.contains_key(&index) {
+                open.extend(made.inner().filter(|inner| !values.contains_key(inner)));
+            }
+            if open.len() > depth {
+                continue;
+            }
+            open.pop();
+            // The unit of a length to the power of a channel depends on a value, so later evaluations may fail.
+            if !values.contains_key(&index) {
+                let value = made.value(formula, self, world, values).map_or(f64::NAN, |(value, _)| value);
+                values.insert(index, value);
+            }
+        }
+        values.get(&root).copied().unwrap_or(f64::NAN)
+    }
+
+    fn reading(&self, index: usize, world: &World) -> f64 {
+        match self.together.try_lock().as_deref_mut() {
+            Ok(Some(values)) => self.value(index, world, values),
+            _ => self.value(index, world, &mut Values::new()),
+        }
+    }
+}
+
+/// Expressions keep their values for a moment while `read` reads channels of the same world.
+pub(super) fn together<T>(world: &World, read: impl FnOnce() -> T) -> T {
+    let expressions = world.get_resource::<Expressions>().filter(|expressions| !expressions.list.is_empty());
+    let keep = |values: Option<Values>| {
+        if let Some(mut kept) = expressions.and_then(|expressions| expressions.together.try_lock().ok()) {
+            *kept = values;
+        }
+    };
+    keep(Some(Values::new()));
+    let read = read();
+    keep(None);
+    read
 }
 
 /// A symbol that lives as long as the program. Each symbol is kept once.
@@ -168,9 +317,13 @@ fn kept(symbol: Cow<'static, str>) -> &'static str {
 }
 
 fn find_own(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let list = &world.get_resource::<Expressions>()?.list;
-    let index = list.iter().position(|asked| asked.name == owner && quantity == QUANTITY)?;
-    channel(world, index).ok()
+    let index = *world.get_resource::<Expressions>()?.places.get(owner).filter(|_| quantity == QUANTITY)?;
+    make(world, index, &mut Making::default()).ok()?;
+    let unit = world.resource::<Expressions>().list[index].made.as_ref()?.unit;
+    let read = move |world: &World| {
+        world.get_resource::<Expressions>().map_or(f64::NAN, |expressions| expressions.reading(index, world))
+    };
+    Some(Channel::of_resources(format!("{owner}.{QUANTITY}"), unit, read))
 }
 
 pub(super) fn plugin(app: &mut App) {

@@ -11,6 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::gate::{self, Gate, LastLook};
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, bodies_named, declare};
 use crate::scene::units::{LengthPair, Time};
 use crate::scene::values::Names;
@@ -71,11 +72,9 @@ impl Direction {
 }
 
 /// The sensors of the scene.
-#[derive(Resource, Default)]
-struct Asked(Vec<Meter>);
+type Asked = Named<Meter>;
 
 struct Meter {
-    name: String,
     gate: Gate,
     direction: Direction,
     /// In seconds.
@@ -140,8 +139,8 @@ impl Entry for Flow {
             }
             let gate = Gate::new(gate, bodies_named(world, &of, outline));
             world.resource_mut::<Seen>().0.push(Passed::default());
-            let meter = Meter { name: name.clone(), gate, direction, window: window.si() };
-            world.resource_mut::<Asked>().0.push(meter);
+            let meter = Meter { gate, direction, window: window.si() };
+            world.resource_mut::<Asked>().push(&name, meter);
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -151,7 +150,7 @@ impl Entry for Flow {
 fn look(world: &mut World) {
     world.resource_scope(|world, mut seen: Mut<Seen>| {
         let state = world.resource::<State>();
-        for (meter, passed) in world.resource::<Asked>().0.iter().zip(&mut seen.0) {
+        for (meter, passed) in world.resource::<Asked>().iter().zip(&mut seen.0) {
             let amounts = meter.gate.passages(&mut passed.before, world).into_iter().map(|passage| {
                 let count = meter.direction.weight(passage.is_left);
                 Amount { count, mass: count as f64 * state.bodies().mass[passage.body] }
@@ -181,7 +180,7 @@ impl Passed {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let index = world.get_resource::<Asked>()?.0.iter().position(|meter| meter.name == owner)?;
+    let index = world.get_resource::<Asked>()?.place(owner)?;
     let of: fn(&Amount) -> f64 =
         if quantity.starts_with("count") { |amount| amount.count as f64 } else { |amount| amount.mass };
     let unit = match quantity {
@@ -192,7 +191,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let is_rate = quantity.ends_with("rate");
     let read = move |world: &World| {
-        let meter = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
+        let meter = world.get_resource::<Asked>().and_then(|asked| asked.get(index));
         let passed = world.get_resource::<Seen>().and_then(|seen| seen.0.get(index));
         let Some((meter, passed)) = meter.zip(passed) else { return f64::NAN };
         if is_rate { passed.rate(meter, &world.resource::<State>().clock(), of) } else { of(&passed.all) }

@@ -9,6 +9,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, check_quantity, declare, find_all, require};
 use crate::scene::values::Names;
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
@@ -36,11 +37,9 @@ struct Mean {
 }
 
 /// The sensors of the scene.
-#[derive(Resource, Default)]
-struct Asked(Vec<Averaged>);
+type Asked = Named<Averaged>;
 
 struct Averaged {
-    name: String,
     group: Group,
     /// One for each body of the group.
     channels: Vec<Channel>,
@@ -69,14 +68,13 @@ impl Entry for Mean {
             let group = Group::new(&of, within, outline, world);
             let named = |body: &Entity| world.get::<Name>(*body).map(|name| format!("{name}.{quantity}"));
             let names: Vec<String> = group.all().iter().filter_map(named).collect();
-            let channels: Vec<Channel> = find_all(world, &names).into_iter().flatten().collect();
-            if channels.len() < names.len() {
-                let missing = names.iter().find(|name| channels.iter().all(|channel| channel.name != **name));
-                require(world, outline, missing.unwrap_or(&names[0]), format!("{}.quantity", mention.path));
+            let found = find_all(world, &names);
+            if let Some((missing, _)) = names.iter().zip(&found).find(|(_, channel)| channel.is_none()) {
+                require(world, outline, missing, format!("{}.quantity", mention.path));
                 continue;
             }
-            let averaged = Averaged { name: name.clone(), group, channels };
-            world.get_resource_or_init::<Asked>().0.push(averaged);
+            let averaged = Averaged { group, channels: found.into_iter().flatten().collect() };
+            world.get_resource_or_init::<Asked>().push(&name, averaged);
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -107,11 +105,11 @@ impl Averaged {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let asked = &world.get_resource::<Asked>()?.0;
-    let index = asked.iter().position(|averaged| averaged.name == owner)?;
-    let unit = asked[index].channels.first().map_or("", |channel| channel.unit);
+    let asked = world.get_resource::<Asked>()?;
+    let index = asked.place(owner)?;
+    let unit = asked.get(index)?.channels.first().map_or("", |channel| channel.unit);
     let read = move |world: &World| {
-        let averaged = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
+        let averaged = world.get_resource::<Asked>().and_then(|asked| asked.get(index));
         averaged.map_or(f64::NAN, |averaged| averaged.value(world, quantity))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), unit, read))

@@ -18,6 +18,8 @@ mod group;
 mod joint;
 mod mean;
 mod motor;
+mod named;
+mod names;
 mod overlap;
 mod period;
 mod pose;
@@ -25,17 +27,21 @@ mod range;
 mod repose;
 mod velocity;
 
-use std::collections::{BTreeMap, BTreeSet};
+use std::collections::BTreeSet;
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 
 use crate::controllers::output::CONTROLLER;
-use crate::scene::values::{Names, Word};
+use crate::scene::values::Word;
 use crate::scene::{Arity, Diagnostics, NameKind, Outline, SceneAppExt, SceneError, fits, suggest};
 use crate::tick::energy::CHANNELS;
+use crate::tick::kept::SnapshotAppExt;
 use crate::tick::{LoadErrors, State, index_of};
-use crate::world::{Bodies, Body, Name, Wall};
+use crate::world::Bodies;
+
+pub(crate) use names::forget_names;
+use names::{NameIndex, bodies_named, body_named, wall_named, with_index};
 
 /// One measured number: its name, its unit and how it is read.
 pub struct Channel {
@@ -84,24 +90,34 @@ impl Channel {
 
 /// The channels the scene asks for, in the order of the file.
 #[derive(Resource, Default)]
-pub struct Channels(Vec<Channel>);
+pub struct Channels {
+    list: Vec<Channel>,
+    names: BTreeSet<String>,
+}
 
 impl Channels {
     /// Adds a channel behind the others.
     pub fn add(world: &mut World, channel: Channel) {
         see_components(world, &channel);
-        world.get_resource_or_init::<Self>().0.push(channel);
+        let mut channels = world.get_resource_or_init::<Self>();
+        channels.names.insert(channel.name.clone());
+        channels.list.push(channel);
     }
 
     /// All channels in order.
     pub fn iter(&self) -> std::slice::Iter<'_, Channel> {
-        self.0.iter()
+        self.list.iter()
     }
 
     /// Whether the scene asks for none.
     pub fn is_empty(&self) -> bool {
-        self.0.is_empty()
+        self.list.is_empty()
     }
+}
+
+/// The present values of channels, in their order. Expressions that several of them name are worked out once.
+pub fn read_all<'a>(world: &World, channels: impl IntoIterator<Item = &'a Channel>) -> Vec<f64> {
+    expression::together(world, || channels.into_iter().map(|channel| channel.value(world)).collect())
 }
 
 /// From now on components are brought up to date after each batch, if a channel may read them.
@@ -266,67 +282,16 @@ fn missing(world: &mut World, words: &[&str], name: &str) -> (String, String) {
 /// Adds channels; one that is there already stays the only one of its name.
 fn add_found(world: &mut World, names: impl IntoIterator<Item = String>) {
     let channels = world.get_resource_or_init::<Channels>();
-    let mut there: BTreeSet<String> = channels.0.iter().map(|channel| channel.name.clone()).collect();
-    let names: Vec<String> = names.into_iter().filter(|name| there.insert(name.clone())).collect();
+    let names: Vec<String> = names.into_iter().filter(|name| !channels.names.contains(name)).collect();
     let found: Vec<Channel> = find_all(world, &names).into_iter().flatten().collect();
-    world.resource_mut::<Channels>().0.extend(found);
+    let Channels { list, names } = &mut *world.resource_mut::<Channels>();
+    list.extend(found.into_iter().filter(|channel| names.insert(channel.name.clone())));
 }
 
 /// The channels of these names, each as [`find`] finds it. The time grows with the sum, not the product, of the numbers of names
 /// and bodies.
 pub fn find_all(world: &mut World, names: &[String]) -> Vec<Option<Channel>> {
     with_index(world, |world| names.iter().map(|name| find(world, name)).collect())
-}
-
-/// The bodies that names mean, in the order of [`Names::matching`].
-fn bodies_named(world: &mut World, names: &Names, outline: &Outline) -> Vec<Entity> {
-    let names = names.matching(NameKind::BODY, outline).into_iter().map(|index| &outline.names(NameKind::BODY)[index]);
-    with_index(world, |world| names.filter_map(|name| body_named(world, name)).collect())
-}
-
-/// Looks many bodies and walls up by name.
-fn with_index<T>(world: &mut World, look: impl FnOnce(&mut World) -> T) -> T {
-    let mut query = world.query::<(Entity, &Name, Has<Body>, Has<Wall>)>();
-    let mut index = NameIndex::default();
-    for (entity, name, body, wall) in query.iter(world) {
-        for (list, has) in [(&mut index.bodies, body), (&mut index.walls, wall)] {
-            if has {
-                list.entry(name.to_string()).or_insert(entity);
-            }
-        }
-    }
-    world.insert_resource(index);
-    let found = look(world);
-    world.remove_resource::<NameIndex>();
-    found
-}
-
-/// Bodies and walls by name, while many are looked for.
-#[derive(Resource, Default)]
-struct NameIndex {
-    bodies: BTreeMap<String, Entity>,
-    walls: BTreeMap<String, Entity>,
-}
-
-/// The entity of the body called `name`.
-fn body_named(world: &mut World, name: &str) -> Option<Entity> {
-    match world.get_resource::<NameIndex>() {
-        Some(index) => index.bodies.get(name).copied(),
-        None => search::<Body>(world, name),
-    }
-}
-
-/// The entity of the wall called `name`.
-fn wall_named(world: &mut World, name: &str) -> Option<Entity> {
-    match world.get_resource::<NameIndex>() {
-        Some(index) => index.walls.get(name).copied(),
-        None => search::<Wall>(world, name),
-    }
-}
-
-fn search<C: Component>(world: &mut World, name: &str) -> Option<Entity> {
-    let mut query = world.query_filtered::<(Entity, &Name), With<C>>();
-    query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity)
 }
 
 /// A channel of a body, read by the body's index in the packed state. It is NaN once the body is gone.
@@ -347,7 +312,8 @@ fn of_body(
 
 /// Registers the sensors of this folder.
 pub fn plugin(app: &mut App) {
-    app.init_resource::<Finders>();
+    app.init_resource::<Finders>().init_resource::<NameIndex>();
+    app.follows_from_scene::<NameIndex>();
     app.register_entry_section("sensors", Arity::List, "sensors: [Pose(of: \"ball\"), Energy()]");
     app.describe_section(
         "sensors",

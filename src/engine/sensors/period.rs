@@ -9,6 +9,7 @@ use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, check_channel, declare, require};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::kept::SnapshotAppExt;
@@ -36,8 +37,7 @@ struct Period {
 struct Meters(Vec<Meter>);
 
 /// The channels that they follow, with the value to be crossed.
-#[derive(Resource, Default)]
-struct Followed(Vec<(String, Channel, f64)>);
+type Followed = Named<(Channel, f64)>;
 
 /// The record of one meter.
 #[derive(Clone, Default, Serialize, Deserialize)]
@@ -77,7 +77,7 @@ impl Entry for Period {
                 add_inner_looker(world, follow);
             }
             world.resource_mut::<Meters>().0.push(Meter::default());
-            world.resource_mut::<Followed>().0.push((name.clone(), channel, crossing));
+            world.resource_mut::<Followed>().push(&name, (channel, crossing));
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -87,8 +87,8 @@ impl Entry for Period {
 fn follow(world: &mut World) {
     let time = world.resource::<State>().clock().time();
     world.resource_scope(|world, mut meters: Mut<Meters>| {
-        let followed = &world.resource::<Followed>().0;
-        for (meter, (_, channel, crossing)) in meters.0.iter_mut().zip(followed) {
+        let followed = world.resource::<Followed>().iter();
+        for (meter, (channel, crossing)) in meters.0.iter_mut().zip(followed) {
             meter.see(time, channel.value(world) - crossing);
         }
     });
@@ -161,7 +161,7 @@ impl Meter {
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     let quantity = *QUANTITIES.iter().find(|known| **known == quantity)?;
-    let index = world.get_resource::<Followed>()?.0.iter().position(|(name, ..)| name == owner)?;
+    let index = world.get_resource::<Followed>()?.place(owner)?;
     let unit = if quantity == "crossings" { "" } else { "s" };
     let read = move |world: &World| {
         let meter = world.get_resource::<Meters>().and_then(|meters| meters.0.get(index));

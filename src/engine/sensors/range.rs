@@ -12,6 +12,7 @@ use glam::DVec2;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, body_named, declare};
 use crate::scene::units::{Angle, Length, LengthPair};
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, WrittenEntry};
@@ -52,8 +53,7 @@ struct Beam {
 }
 
 /// The sensors of the scene.
-#[derive(Resource, Default)]
-struct Beams(Vec<(String, Beam)>);
+type Beams = Named<Beam>;
 
 impl Entry for Range {
     const SECTION: &'static str = "sensors";
@@ -87,7 +87,7 @@ impl Entry for Range {
             let at = at.map_or(DVec2::ZERO, from_center);
             let reach = reach.map_or(f64::INFINITY, |reach| reach.si());
             let beam = Beam { body, at, angle: angle.si(), reach };
-            world.get_resource_or_init::<Beams>().0.push((name.clone(), beam));
+            world.get_resource_or_init::<Beams>().push(&name, beam);
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -97,7 +97,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     if !QUANTITIES.contains(&quantity) {
         return None;
     }
-    let (_, beam) = *world.get_resource::<Beams>()?.0.iter().find(|(name, _)| name == owner)?;
+    let beam = *world.get_resource::<Beams>()?.of(owner)?;
     let value = move |world: &World| {
         let bodies = world.resource::<State>().bodies();
         index_of(world, beam.body).map_or(f64::NAN, |body| beam.range(bodies, body))

@@ -17,6 +17,7 @@ use schemars::JsonSchema;
 use serde::Deserialize;
 
 use super::group::{self, Group};
+use super::named::Named;
 use super::{Channel, SensorAppExt, add_found, declare};
 use crate::scene::units::{Length, Scalar, Speed};
 use crate::scene::values::Names;
@@ -60,11 +61,9 @@ fn middle() -> (Scalar, Scalar) {
 }
 
 /// The sensors of the scene.
-#[derive(Resource, Default)]
-struct Asked(Vec<Heap>);
+type Asked = Named<Heap>;
 
 struct Heap {
-    name: String,
     group: Group,
     /// In m/s.
     slower_than: f64,
@@ -99,13 +98,12 @@ impl Entry for Repose {
         let world = app.world_mut();
         for WrittenEntry { value: Self { name, of, within, slower_than, column, heights }, .. } in entries {
             let heap = Heap {
-                name: name.clone(),
                 group: Group::new(&of, within, outline, world),
                 slower_than: slower_than.map_or(f64::INFINITY, Speed::si),
                 column: column.map(Length::si),
                 heights: (heights.0.si(), heights.1.si()),
             };
-            world.get_resource_or_init::<Asked>().0.push(heap);
+            world.get_resource_or_init::<Asked>().push(&name, heap);
             add_found(world, QUANTITIES.iter().map(|quantity| format!("{name}.{quantity}")));
         }
     }
@@ -176,7 +174,7 @@ fn slope(points: &[DVec2]) -> f64 {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let index = world.get_resource::<Asked>()?.0.iter().position(|heap| heap.name == owner)?;
+    let index = world.get_resource::<Asked>()?.place(owner)?;
     let read: fn([f64; 2]) -> f64 = match quantity {
         "repose" => |[left, right]| match (left.is_nan(), right.is_nan()) {
             (true, _) => right,
@@ -188,7 +186,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         _ => return None,
     };
     let value = move |world: &World| {
-        let heap = world.get_resource::<Asked>().and_then(|asked| asked.0.get(index));
+        let heap = world.get_resource::<Asked>().and_then(|asked| asked.get(index));
         heap.map_or(f64::NAN, |heap| read(heap.flanks(world)))
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "rad", value))

@@ -1,0 +1,91 @@
+//! Bodies and walls by name.
+//!
+//! While a scene is put together, and while many are looked for, an index holds them: a look-up then costs a logarithm
+//! of their number. The index is made anew if their number changed, or if an entity lost its name.
+
+use std::collections::BTreeMap;
+
+use bevy_ecs::prelude::*;
+
+use crate::scene::values::Names;
+use crate::scene::{NameKind, Outline};
+use crate::world::{Body, Name, Wall};
+
+/// Bodies and walls by name.
+#[derive(Resource, Default)]
+pub(super) struct NameIndex {
+    bodies: Listed,
+    walls: Listed,
+    /// Names that were written into the index, the measure of its cost.
+    #[cfg(test)]
+    pub written: usize,
+}
+
+/// Entities of one kind.
+#[derive(Default)]
+struct Listed {
+    by_name: BTreeMap<String, Entity>,
+    /// Their number when the list was made.
+    count: usize,
+}
+
+type List = fn(&mut NameIndex) -> &mut Listed;
+
+/// The entity of the body called `name`.
+pub(super) fn body_named(world: &mut World, name: &str) -> Option<Entity> {
+    named::<Body>(world, name, |index| &mut index.bodies)
+}
+
+/// The entity of the wall called `name`.
+pub(super) fn wall_named(world: &mut World, name: &str) -> Option<Entity> {
+    named::<Wall>(world, name, |index| &mut index.walls)
+}
+
+/// The bodies that names mean, in the order of [`Names::matching`].
+pub(super) fn bodies_named(world: &mut World, names: &Names, outline: &Outline) -> Vec<Entity> {
+    let names = names.matching(NameKind::BODY, outline).into_iter().map(|index| &outline.names(NameKind::BODY)[index]);
+    with_index(world, |world| names.filter_map(|name| body_named(world, name)).collect())
+}
+
+/// Looks many bodies and walls up by name.
+pub(super) fn with_index<T>(world: &mut World, look: impl FnOnce(&mut World) -> T) -> T {
+    if world.contains_resource::<NameIndex>() {
+        return look(world);
+    }
+    world.init_resource::<NameIndex>();
+    let found = look(world);
+    forget_names(world);
+    found
+}
+
+/// The scene is put together: from now on names are searched for, because bodies come and go.
+pub(crate) fn forget_names(world: &mut World) {
+    world.remove_resource::<NameIndex>();
+}
+
+fn named<C: Component>(world: &mut World, name: &str, list: List) -> Option<Entity> {
+    if !world.contains_resource::<NameIndex>() {
+        let mut query = world.query_filtered::<(Entity, &Name), With<C>>();
+        return query.iter(world).find(|(_, found)| **found == *name).map(|(entity, _)| entity);
+    }
+    let count = world.query_filtered::<&Name, With<C>>().iter(world).len();
+    let mut index = world.resource_mut::<NameIndex>();
+    let listed = list(&mut index);
+    let (as_many, found) = (listed.count == count, listed.by_name.get(name).copied());
+    let bears_it = |entity: Entity| world.get::<Name>(entity).is_some_and(|found| *found == *name);
+    if as_many && found.is_none_or(bears_it) {
+        return found;
+    }
+    let mut by_name = BTreeMap::new();
+    for (entity, name) in world.query_filtered::<(Entity, &Name), With<C>>().iter(world) {
+        by_name.entry(name.to_string()).or_insert(entity);
+    }
+    let mut index = world.resource_mut::<NameIndex>();
+    #[cfg(test)]
+    {
+        index.written += count;
+    }
+    let listed = list(&mut index);
+    *listed = Listed { by_name, count };
+    listed.by_name.get(name).copied()
+}
