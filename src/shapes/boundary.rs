@@ -15,6 +15,7 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use crate::hull::Hull;
+use crate::pose::BoundingBox;
 
 /// A side, moved outwards by the radius.
 #[derive(Clone, Copy, Debug)]
@@ -68,6 +69,20 @@ impl Piece {
             Self::Straight(side) => side.length,
             Self::Arc(arc) => arc.angle,
         }
+    }
+
+    /// Places, of which none of the piece is farther from the line between them than the radius in metres.
+    pub fn frame(&self) -> ([DVec2; 2], f64) {
+        match self {
+            Self::Straight(side) => ([side.origin(), side.origin() + side.along() * side.length], 0.0),
+            Self::Arc(arc) => ([arc.center; 2], arc.radius),
+        }
+    }
+
+    /// A box that holds the piece.
+    pub fn bounds(&self) -> BoundingBox {
+        let ([from, to], radius) = self.frame();
+        BoundingBox { low: from.min(to), high: from.max(to) }.grown(radius)
     }
 
     /// The moments of the fan between the origin and a part of the piece.

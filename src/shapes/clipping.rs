@@ -16,7 +16,9 @@ use std::f64::consts::{PI, TAU};
 use glam::DVec2;
 
 use crate::boundary::{Arc, Piece, Straight};
+use crate::half_planes::not_well_below;
 use crate::hull::Hull;
+use crate::pose::BoundingBox;
 
 /// Stretches of a piece, from and to, counted as its places are.
 pub(crate) type Spans = Vec<(f64, f64)>;
@@ -30,34 +32,43 @@ pub(crate) struct Ranked<'a> {
 
 /// Adds the stretches of a piece of the hull of rank `own` that lie in another hull.
 pub(crate) fn add_covered(piece: &Piece, own: usize, other: Ranked, tie: f64, covered: &mut Spans) {
-    let (hull, whole) = (other.hull, vec![(0.0, piece.extent())]);
-    let lines = || {
-        let sides = hull.corners().iter().zip(hull.sides());
-        sides.map(|(corner, side)| Straight {
-            corner: *corner,
-            normal: side.normal,
-            radius: hull.radius(),
-            length: side.length,
-        })
+    let hull = other.hull;
+    let line = |side: usize| {
+        let (corner, side) = (hull.corners()[side], hull.sides()[side]);
+        Straight { corner, normal: side.normal, radius: hull.radius(), length: side.length }
     };
     let ranks = Ranks { own, other: other.rank, tie };
+    // A half-plane that holds the piece by more than ties leaves all of it over.
+    let in_all = |meets: &dyn Fn(&Straight) -> Spans| {
+        let mut left = vec![(0.0, piece.extent())];
+        let (places, radius) = piece.frame();
+        not_well_below(hull, &places, radius + 4.0 * tie, &mut |side| {
+            left = meet(&left, &meets(&line(side)));
+            !left.is_empty()
+        });
+        left
+    };
     if hull.radius() == 0.0 {
-        covered.extend(lines().fold(whole, |left, line| meet(&left, &below(piece, &line, ranks))));
+        covered.extend(in_all(&|line| below(piece, line, ranks)));
         return;
     }
     if hull.corners().len() > 2 {
-        covered.extend(lines().fold(whole.clone(), |left, line| {
-            meet(&left, &within(piece, -line.normal, -line.normal.dot(line.corner)))
-        }));
+        covered.extend(in_all(&|line| within(piece, -line.normal, -line.normal.dot(line.corner))));
     }
-    for line in lines() {
+    let near = piece.bounds().grown(hull.radius() + tie / STEEP);
+    for line in (0..hull.sides().len()).map(line) {
+        let end = line.corner + line.along() * line.length;
+        if !near.touches(&BoundingBox { low: line.corner.min(end), high: line.corner.max(end) }) {
+            continue;
+        }
         let (along, start) = (line.along(), line.along().dot(line.corner));
         // A strip reaches into the core by a tie, so that no crack is left between them.
         let floor = within(piece, line.normal, line.normal.dot(line.corner) - tie);
         let ends = meet(&within(piece, along, start), &within(piece, -along, -start - line.length));
         covered.extend(meet(&meet(&floor, &ends), &below(piece, &line, ranks)));
     }
-    for &center in hull.corners() {
+    let is_near = |center: &&DVec2| near.touches(&BoundingBox { low: **center, high: **center });
+    for &center in hull.corners().iter().filter(is_near) {
         covered.extend(in_disc(piece, center, hull.radius(), ranks));
     }
 }
@@ -79,7 +90,7 @@ pub(crate) fn free(piece: &Piece, mut covered: Spans) -> Spans {
 }
 
 /// Sine of the angle between boundaries, above which they have no ties.
-const STEEP: f64 = 1.0 / 64.0;
+pub(crate) const STEEP: f64 = 1.0 / 64.0;
 
 /// Whether curves are nearly parallel at their meeting point. `share` is the square of the sine of half the angle
 /// between their normals, one of which may be reversed.

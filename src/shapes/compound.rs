@@ -8,9 +8,12 @@
 use glam::DVec2;
 
 use crate::boundary::Piece;
+use crate::box_tree::BoxTree;
+use crate::half_planes::not_well_below;
 use crate::hull::{Free, Hull};
 use crate::moments::{free_boundary, middle, thick, tie};
 use crate::nearest::nearest;
+use crate::pose::{BoundingBox, Pose};
 
 /// Marks the inner sides of the hulls of one body. Marks the corners too that are not convex vertices of its outline.
 pub fn mark_inner(hulls: &mut [Hull]) {
@@ -49,9 +52,10 @@ pub fn mark_inner(hulls: &mut [Hull]) {
         }
     }
     let normals: Vec<Hull> = ranks.iter().map(|rank| hulls[*rank].clone()).collect();
+    let boxes = BoxTree::new(parts.iter().map(|hull| BoundingBox::of(hull, &Pose::default()).grown(4.0 * tie)));
     for (part, hull) in normals.iter().enumerate() {
         for corner in (0..hull.corners().len()).filter(|corner| hull.probes(*corner)) {
-            hulls[ranks[part]].set_free(corner, free(&parts, &normals, (part, corner), tie));
+            hulls[ranks[part]].set_free(corner, free(&parts, &boxes, &normals, (part, corner), tie));
         }
     }
 }
@@ -60,12 +64,16 @@ pub fn mark_inner(hulls: &mut [Hull]) {
 /// sharp one.
 ///
 /// Places are those of `parts`, whose numbers are small; normals are those of the hulls themselves.
-fn free(parts: &[Hull], normals: &[Hull], (own, corner): (usize, usize), tie: f64) -> Free {
+fn free(parts: &[Hull], boxes: &BoxTree, normals: &[Hull], (own, corner): (usize, usize), tie: f64) -> Free {
     let (place, radius) = (parts[own].corners()[corner], parts[own].radius());
     let cone = Cone::at(&normals[own], corner);
     let mut free = Free::Whole;
     let (mut from, mut to) = (0.0, cone.as_ref().map_or(0.0, Cone::span));
-    for (rank, other) in parts.iter().enumerate().filter(|(rank, _)| *rank != own) {
+    for rank in boxes.touching(&BoundingBox { low: place, high: place }).into_iter().filter(|rank| *rank != own) {
+        let other = &parts[rank];
+        if is_apart(other, place, other.radius() + 4.0 * tie) {
+            continue;
+        }
         let gap = nearest(other, place).distance - other.radius();
         let corners = other.corners().iter();
         let alike = (other.radius() - radius).abs() <= tie;
@@ -95,6 +103,16 @@ fn free(parts: &[Hull], normals: &[Hull], (own, corner): (usize, usize), tie: f6
         }
     }
     free
+}
+
+/// Whether a place lies above the line of a side by more than a distance in metres. If so, it is farther from the core.
+fn is_apart(hull: &Hull, place: DVec2, distance: f64) -> bool {
+    let mut is_apart = false;
+    not_well_below(hull, &[place], distance, &mut |side| {
+        is_apart = hull.sides()[side].normal.dot(place - hull.corners()[side]) > distance;
+        !is_apart
+    });
+    is_apart
 }
 
 /// The first direction of a range within a cone.

@@ -5,24 +5,31 @@
 //! possible number of parts. Predicates are exact, so that each part is strictly convex. Each choice takes the lowest
 //! index.
 
+use std::collections::{BTreeMap, BTreeSet};
+
 use glam::DVec2;
 
+use crate::box_tree::BoxTree;
 use crate::hull::{Free, Hull, direction};
 use crate::orientation::orientation;
+use crate::pose::BoundingBox;
 use crate::simple_polygon::convex_corners;
 
 /// The parts as rings of indices, each strictly convex. `corners` is a simple outline, counter-clockwise, without
 /// straight corners.
 pub(crate) fn convex_parts(corners: &[DVec2]) -> Vec<Vec<usize>> {
-    let (mut parts, cuts) = triangles(corners);
+    let (parts, cuts) = triangles(corners);
+    let mut holders = BTreeMap::new();
+    for (number, part) in parts.iter().enumerate() {
+        sides_of(part).for_each(|side| {
+            holders.insert(side, number);
+        });
+    }
+    let mut parts: Vec<Option<Vec<usize>>> = parts.into_iter().map(Some).collect();
     for (from, to) in cuts {
-        let holding = |from: usize, to: usize| {
-            parts
-                .iter()
-                .position(|part| (0..part.len()).any(|at| part[at] == from && part[(at + 1) % part.len()] == to))
-        };
-        let (Some(left), Some(right)) = (holding(from, to), holding(to, from)) else { continue };
-        let merged = merged(&parts[left], &parts[right], from, to);
+        let [left, right] = [(from, to), (to, from)].map(|side| holders[&side]);
+        let (Some(one), Some(other)) = (&parts[left], &parts[right]) else { continue };
+        let merged = merged(one, other, from, to);
         let count = merged.len();
         let turns_left = |index: usize| {
             let at = merged.iter().position(|other| *other == index).expect("an end of the cut");
@@ -30,36 +37,135 @@ pub(crate) fn convex_parts(corners: &[DVec2]) -> Vec<Vec<usize>> {
             orientation(corners[before], corners[index], corners[after]) > 0.0
         };
         if turns_left(from) && turns_left(to) {
-            parts[left] = merged;
-            parts.remove(right);
+            sides_of(other).for_each(|side| {
+                holders.insert(side, left);
+            });
+            parts[left] = Some(merged);
+            parts[right] = None;
         }
     }
-    parts
+    parts.into_iter().flatten().collect()
+}
+
+/// The sides of a part, each from one corner to the next.
+fn sides_of(part: &[usize]) -> impl Iterator<Item = (usize, usize)> {
+    part.iter().copied().zip(part.iter().copied().cycle().skip(1))
 }
 
 /// Triangles, and the cuts between them.
 fn triangles(corners: &[DVec2]) -> (Vec<Vec<usize>>, Vec<(usize, usize)>) {
-    let mut ring: Vec<usize> = (0..corners.len()).collect();
     let (mut parts, mut cuts) = (Vec::new(), Vec::new());
-    while ring.len() > 3 {
-        let count = ring.len();
-        let at = (0..count).find(|at| is_ear(corners, &ring, *at)).expect("a simple polygon has ears");
-        let (before, after) = (ring[(at + count - 1) % count], ring[(at + 1) % count]);
-        parts.push(vec![before, ring[at], after]);
+    let mut ring = EarRing::new(corners);
+    for _ in 3..corners.len() {
+        let ear = ring.ears.pop_first().expect("a simple polygon has ears");
+        let (before, after) = (ring.before[ear], ring.after[ear]);
+        parts.push(vec![before, ear, after]);
         cuts.push((after, before));
-        ring.remove(at);
+        ring.clip(ear);
     }
-    parts.push(ring);
+    parts.push((0..corners.len()).filter(|corner| !ring.is_clipped[*corner]).collect());
     (parts, cuts)
 }
 
-/// Whether the triangle of a corner and its neighbours has an area. It may hold no other corner inside or on its edge.
-fn is_ear(corners: &[DVec2], ring: &[usize], at: usize) -> bool {
-    let count = ring.len();
-    let triangle = [ring[(at + count - 1) % count], ring[at], ring[(at + 1) % count]];
-    let [a, b, c] = triangle.map(|index| corners[index]);
-    let holds = |p: DVec2| orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
-    orientation(a, b, c) > 0.0 && !ring.iter().any(|index| !triangle.contains(index) && holds(corners[*index]))
+/// The corners that are left over, and those of them that are ears.
+///
+/// The triangle of an ear and its neighbours has an area, and holds no other corner inside or on its edge. If it holds
+/// some, then also one at which the outline does not bend outwards: that one of them nearest to the ear. Clipping makes no
+/// corner bend inwards. So a triangle waits for one such corner at a time, and looks at each of them once.
+struct EarRing<'a> {
+    corners: &'a [DVec2],
+    before: Vec<usize>,
+    after: Vec<usize>,
+    is_clipped: Vec<bool>,
+    bends_out: Vec<bool>,
+    ears: BTreeSet<usize>,
+    /// For each corner, those that its triangle may hold and that were not looked at. The next one is the last.
+    unseen: Vec<Vec<usize>>,
+    /// For each corner, those whose triangles hold it. They are no ears as long as it stays their obstacle.
+    waiting: Vec<Vec<usize>>,
+    obstacle: Vec<Option<usize>>,
+    /// The corners at which the outline does not bend outwards in the beginning.
+    others: Vec<usize>,
+    tree: BoxTree,
+}
+
+impl<'a> EarRing<'a> {
+    fn new(corners: &'a [DVec2]) -> Self {
+        let count = corners.len();
+        let bends_out = convex_corners(corners);
+        let others: Vec<usize> = (0..count).filter(|corner| !bends_out[*corner]).collect();
+        let tree =
+            BoxTree::new(others.iter().map(|corner| BoundingBox { low: corners[*corner], high: corners[*corner] }));
+        let mut ring = Self {
+            corners,
+            before: (0..count).map(|corner| (corner + count - 1) % count).collect(),
+            after: (0..count).map(|corner| (corner + 1) % count).collect(),
+            is_clipped: vec![false; count],
+            bends_out,
+            ears: BTreeSet::new(),
+            unseen: vec![Vec::new(); count],
+            waiting: vec![Vec::new(); count],
+            obstacle: vec![None; count],
+            others,
+            tree,
+        };
+        (0..count).for_each(|corner| ring.look_anew(corner));
+        ring
+    }
+
+    fn triangle(&self, corner: usize) -> [usize; 3] {
+        [self.before[corner], corner, self.after[corner]]
+    }
+
+    /// Looks whether a corner with a new neighbour is an ear.
+    fn look_anew(&mut self, corner: usize) {
+        self.ears.remove(&corner);
+        self.obstacle[corner] = None;
+        let triangle = self.triangle(corner);
+        let [a, b, c] = triangle.map(|index| self.corners[index]);
+        self.unseen[corner].clear();
+        if self.bends_out[corner] {
+            let bounds = BoundingBox { low: a.min(b).min(c), high: a.max(b).max(c) };
+            let near = self.tree.touching(&bounds).into_iter().map(|place| self.others[place]);
+            self.unseen[corner] = near.filter(|other| !self.bends_out[*other] && !triangle.contains(other)).collect();
+            self.look_on(corner);
+        }
+    }
+
+    /// Looks at the corners that were not seen, until the triangle holds one.
+    fn look_on(&mut self, corner: usize) {
+        let [a, b, c] = self.triangle(corner).map(|index| self.corners[index]);
+        while let Some(other) = self.unseen[corner].pop() {
+            let p = self.corners[other];
+            let holds = orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
+            if holds && !self.bends_out[other] {
+                self.waiting[other].push(corner);
+                self.obstacle[corner] = Some(other);
+                return;
+            }
+        }
+        self.ears.insert(corner);
+    }
+
+    /// Takes an ear off.
+    fn clip(&mut self, ear: usize) {
+        let (before, after) = (self.before[ear], self.after[ear]);
+        self.is_clipped[ear] = true;
+        (self.after[before], self.before[after]) = (after, before);
+        for corner in [before, after] {
+            let [a, b, c] = self.triangle(corner).map(|index| self.corners[index]);
+            let straightened = !self.bends_out[corner] && orientation(a, b, c) > 0.0;
+            self.bends_out[corner] |= straightened;
+            self.look_anew(corner);
+            if straightened {
+                for waiting in std::mem::take(&mut self.waiting[corner]) {
+                    if self.obstacle[waiting].take_if(|obstacle| *obstacle == corner).is_some() {
+                        self.look_on(waiting);
+                    }
+                }
+            }
+        }
+    }
 }
 
 /// The ring of both parts without the cut, which runs from `from` to `to` in the left one.

@@ -4,11 +4,13 @@
 //! shapes become several. Lengths are in metres, angles in radians, y points up, corners run counter-clockwise.
 
 mod boundary;
+mod box_tree;
 mod clipping;
 mod compound;
 mod convex_parts;
 mod error;
 mod gear;
+mod half_planes;
 mod hull;
 mod hull_distance;
 mod moments;
@@ -34,7 +36,7 @@ pub use pose::{BoundingBox, Pose};
 pub use rack::Rack;
 pub use ray::ray;
 pub use rounded_corners::Rounded;
-pub use shape::{Shape, capsule, compound, disc, polygon, rectangle, regular};
+pub use shape::{MOST_CORNERS, Shape, capsule, compound, disc, polygon, rectangle, regular};
 pub use time_of_impact::{RigidMotion, time_of_impact};
 pub use voronoi_region::beyond;
 

@@ -8,7 +8,8 @@
 use glam::DVec2;
 
 use crate::boundary::{Fan, Piece, pieces};
-use crate::clipping::{Ranked, Spans, add_covered, free};
+use crate::box_tree::BoxTree;
+use crate::clipping::{Ranked, STEEP, Spans, add_covered, free};
 use crate::hull::Hull;
 use crate::pose::{BoundingBox, Pose};
 
@@ -90,13 +91,13 @@ pub(crate) fn tie(hulls: &[Hull]) -> f64 {
 
 /// The pieces of each hull's boundary with their stretches outside all others.
 pub(crate) fn free_boundary(parts: &[Hull], tie: f64) -> Vec<Vec<(Piece, Spans)>> {
-    let boxes: Vec<BoundingBox> = parts.iter().map(|hull| BoundingBox::of(hull, &Pose::default()).grown(tie)).collect();
+    let boxes = BoxTree::new(parts.iter().map(|hull| BoundingBox::of(hull, &Pose::default()).grown(tie)));
     let of_part = |own: usize| {
-        let near: Vec<usize> =
-            (0..parts.len()).filter(|other| *other != own && boxes[own].touches(&boxes[*other])).collect();
         let free_of = |piece: Piece| {
             let mut covered = Spans::new();
-            for &rank in &near {
+            // Beyond a corner of two lines that are flat to the piece, a tie reaches this far.
+            let near = boxes.touching(&piece.bounds().grown(tie / STEEP));
+            for rank in near.into_iter().filter(|rank| *rank != own) {
                 add_covered(&piece, own, Ranked { hull: &parts[rank], rank }, tie, &mut covered);
             }
             (piece, free(&piece, covered))

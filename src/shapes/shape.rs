@@ -109,6 +109,9 @@ pub fn regular(sides: usize, radius: f64, rounding: f64) -> Result<Shape, ShapeE
     Ok(Shape { lost_area, ..Shape::of(Hull::polygon(&corners, rounding)?.0) })
 }
 
+/// Corners of a polygon of a scene at most: to cut more of them and to find their contacts would take seconds.
+pub const MOST_CORNERS: usize = 1000;
+
 /// A simple polygon, convex or not, with the radius of its convex corners, in metres. Corners that bend inwards stay sharp. A
 /// concave one is cut into convex parts.
 ///

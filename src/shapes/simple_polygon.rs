@@ -6,9 +6,11 @@
 
 use glam::DVec2;
 
+use crate::box_tree::BoxTree;
 use crate::error::{Mended, ShapeError};
 use crate::hull::{around, check_points, direction, without_straight};
 use crate::orientation::orientation;
+use crate::pose::BoundingBox;
 
 /// The corners of a simple polygon, counter-clockwise and without straight ones, and the corrections.
 ///
@@ -48,16 +50,15 @@ fn distinct(points: &[DVec2]) -> Result<(), ShapeError> {
 fn crossing(points: &[DVec2], ring: &[usize]) -> Option<ShapeError> {
     let count = ring.len();
     let ends = |side: usize| (points[ring[side]], points[ring[(side + 1) % count]]);
+    let bounds = |(from, to): (DVec2, DVec2)| BoundingBox { low: from.min(to), high: from.max(to) };
+    let boxes = BoxTree::new((0..count).map(|side| bounds(ends(side))));
     for first in 0..count {
         let (a, b) = ends(first);
-        let (low, high) = (a.min(b), a.max(b));
+        let low = a.min(b);
         let last = if first == 0 { count - 1 } else { count };
-        for second in first + 2..last {
+        let others = boxes.touching(&bounds((a, b))).into_iter().filter(|second| (first + 2..last).contains(second));
+        for second in others {
             let (c, d) = ends(second);
-            let apart = c.min(d).cmpgt(high) | c.max(d).cmplt(low);
-            if apart.any() {
-                continue;
-            }
             let heights = [orientation(c, d, a), orientation(c, d, b), orientation(a, b, c), orientation(a, b, d)];
             let same_side = |one: f64, other: f64| (one > 0.0 && other > 0.0) || (one < 0.0 && other < 0.0);
             if same_side(heights[0], heights[1]) || same_side(heights[2], heights[3]) {

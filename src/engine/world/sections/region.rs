@@ -3,15 +3,13 @@
 use std::fmt;
 
 use glam::DVec2;
+use jostle_shapes::MOST_CORNERS;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::Deserialize;
 use serde::de::{Deserializer, SeqAccess, Visitor};
 
 use crate::scene::units::LengthPair;
 use crate::scene::{Diagnostics, exact};
-
-/// The largest number of corners.
-pub const MOST_CORNERS: usize = 1000;
 
 /// Two points are opposite corners of a box; three or more are the corners of a polygon, in order.
 ///
@@ -102,7 +100,8 @@ impl Region {
             let message = format!("expected two corners of a box or three or more of a polygon, found {count}");
             report.error("", message).help("for example: within: ((0, 0), (6, 6))");
         } else if count > MOST_CORNERS {
-            report.error("", format!("a polygon may have {MOST_CORNERS} corners, got {count}"));
+            let message = format!("a polygon may have {MOST_CORNERS} corners, got {count}");
+            report.error("", message).help("leave out corners that hardly turn the outline");
         } else if self.is_box() {
             let (low, high) = self.bounds();
             let size = high - low;
