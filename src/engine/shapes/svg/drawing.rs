@@ -6,6 +6,7 @@ use svgtypes::{Length, LengthUnit, PointsParser, Transform};
 
 use super::curve::{Affine, Curve};
 use super::path::{self, Contour};
+use super::{MOST_POINTS, size};
 
 /// Groups in groups are followed so deep.
 const DEEPEST: usize = 64;
@@ -17,6 +18,8 @@ const SVG: &str = "http://www.w3.org/2000/svg";
 #[derive(Debug, Default)]
 pub(super) struct Drawing {
     pub contours: Vec<Contour>,
+    /// The number of curves of all contours. Each needs a point at least.
+    curves: usize,
     /// Names of elements that are seen but have no outline here.
     pub left_out: Vec<String>,
 }
@@ -31,6 +34,7 @@ impl Drawing {
     /// A file that is no drawing; an element that is not there; numbers and paths that mean nothing.
     pub fn read(bytes: &[u8], id: Option<&str>) -> Result<Self, Wrong> {
         let text = std::str::from_utf8(bytes).map_err(|_| no_drawing("is no text"))?;
+        size::check(text)?;
         let options = ParsingOptions { allow_dtd: true, nodes_limit: MOST_NODES, ..ParsingOptions::default() };
         let document = Document::parse_with_options(text, options)
             .map_err(|error| no_drawing(&format!("is no SVG file: {error}")))?;
@@ -77,7 +81,8 @@ impl Drawing {
             })?,
             "polygon" | "polyline" => {
                 let points = PointsParser::from(node.attribute("points").unwrap_or_default());
-                vec![Contour::polygon(&points.map(|(x, y)| DVec2::new(x, y)).collect::<Vec<_>>())]
+                let points = points.map(|(x, y)| DVec2::new(x, y)).take(MOST_POINTS + 2);
+                vec![Contour::polygon(&points.collect::<Vec<_>>())]
             }
             "rect" => vec![rectangle(node)?],
             "circle" | "ellipse" => vec![ellipse(node)?],
@@ -90,7 +95,15 @@ impl Drawing {
         };
         let map = map.after(transform(node)?);
         let drawn = contours.iter().filter(|contour| !contour.curves.is_empty());
-        self.contours.extend(drawn.map(|contour| contour.mapped(map)));
+        for contour in drawn {
+            self.curves += contour.curves.len();
+            self.contours.push(contour.mapped(map));
+        }
+        if self.curves > MOST_POINTS {
+            let message =
+                format!("has more than {MOST_POINTS} lines and curves: outlines can have {MOST_POINTS} points");
+            return Err((message, "make the drawing simpler, or choose one element with `id`".to_owned()));
+        }
         Ok(())
     }
 }

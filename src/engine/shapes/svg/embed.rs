@@ -5,6 +5,7 @@ use std::path::Path;
 
 use jostle_language::numbers::number;
 
+use super::size::MOST_TEXT;
 use super::{Outlines, Size, Wrong};
 use crate::scene::embed::{Door, Embed, Embedded, Embedding, EmbeddingPlace, FileRequest, UnfitFile};
 use crate::scene::{exact, read_value};
@@ -19,7 +20,8 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
     example: SvgShape::EXAMPLE,
     reader: || Box::<Drawings>::default(),
 };
-const DRAWING: FileRequest = FileRequest { most: 4 << 20, noun: "an SVG file", smaller: "make the drawing simpler" };
+const DRAWING: FileRequest =
+    FileRequest { most: MOST_TEXT as u64, noun: "an SVG file", smaller: "make the drawing simpler" };
 
 /// The drawings that were read, so that each note appears once.
 #[derive(Default)]

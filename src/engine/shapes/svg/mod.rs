@@ -7,6 +7,7 @@ mod curve;
 mod drawing;
 mod embed;
 mod path;
+mod size;
 
 pub(crate) use embed::EMBEDDING;
 
@@ -56,7 +57,7 @@ impl Outlines {
     /// A file without outlines, or with outlines of which no shape can be made.
     pub fn read(bytes: &[u8], id: Option<&str>, size: Size, tolerance: Option<f64>) -> Result<Self, Wrong> {
         let field = if id.is_some() { "id" } else { "file" };
-        let Drawing { contours, left_out } =
+        let Drawing { contours, left_out, .. } =
             Drawing::read(bytes, id).map_err(|(message, help)| (message, help, "file"))?;
         let rough: Vec<DVec2> = contours.iter().flat_map(|contour| chained(contour, |_| FINE, 0.0)).collect();
         let low = rough.iter().copied().fold(DVec2::INFINITY, DVec2::min);

@@ -3,6 +3,7 @@
 use glam::DVec2;
 use svgtypes::{PathParser, PathSegment};
 
+use super::MOST_POINTS;
 use super::curve::{Affine, Curve};
 
 /// A contour: its beginning and its curves. If it does not end at its beginning, a line closes it.
@@ -34,6 +35,8 @@ impl Contour {
 struct Pen {
     contours: Vec<Contour>,
     contour: Contour,
+    /// The number of all curves.
+    curves: usize,
     /// The last control point and the degree of its curve, for smooth curves.
     control: Option<(DVec2, usize)>,
 }
@@ -50,9 +53,13 @@ impl Pen {
         }
     }
 
+    fn draw(&mut self, curve: Curve) {
+        self.contour.curves.push(curve);
+        self.curves += 1;
+    }
+
     fn line(&mut self, to: DVec2) {
-        let from = self.at();
-        self.contour.curves.push(Curve::line(from, to));
+        self.draw(Curve::line(self.at(), to));
     }
 
     /// A curve with control points. If the first one is absent, it mirrors the last one of the curve before.
@@ -66,7 +73,7 @@ impl Pen {
         let last = points.last().copied().unwrap_or(from);
         points.push(to);
         let degree = points.len() - 1;
-        self.contour.curves.push(Curve::Bezier(points));
+        self.draw(Curve::Bezier(points));
         self.control = Some((last, degree));
     }
 
@@ -97,7 +104,7 @@ impl Pen {
             }
             PathSegment::EllipticalArc { abs, rx, ry, x_axis_rotation, large_arc, sweep, x, y } => {
                 let (tilt, flags) = (x_axis_rotation.to_radians(), (large_arc, sweep));
-                self.contour.curves.push(Curve::arc(from, place(abs, x, y), DVec2::new(rx, ry), tilt, flags));
+                self.draw(Curve::arc(from, place(abs, x, y), DVec2::new(rx, ry), tilt, flags));
             }
             // The next command begins at the start of the contour.
             PathSegment::ClosePath { .. } => self.lift(self.contour.start),
@@ -113,6 +120,10 @@ pub(super) fn contours(data: &str) -> Result<Vec<Contour>, String> {
     let mut pen = Pen::default();
     for segment in PathParser::from(data) {
         pen.segment(segment.map_err(|error| error.to_string())?);
+        if pen.curves > MOST_POINTS {
+            // The drawing has too many of them, whatever follows.
+            break;
+        }
     }
     pen.lift(DVec2::ZERO);
     Ok(pen.contours)
