@@ -3,12 +3,12 @@
 
 use std::fmt::Write;
 
-use super::emit::{Context, WORK};
+use super::emit::{Context, WORK, WORK_OF_TEXT};
 use super::expansion::Buffer;
 use super::quantity::Number;
 use super::scope::{Scope, Value};
 use super::table_file::{Columns, Words};
-use super::{Expander, Outcome};
+use super::{Expander, MOST_WORK, Outcome};
 use crate::syntax::{Form, Id};
 use crate::{count, exact};
 
@@ -83,6 +83,7 @@ impl Expander {
                 self.wrong_value(context, to_id, &format!("a place to the right of `from`, {} m", exact(from.si)));
             return Err(Box::new(error.with_help("a ground goes from left to right")));
         }
+        self.foresee(context, pieces_id, of, pieces.si as usize)?;
         let mut points = Vec::new();
         for index in 0..=pieces.si as u32 {
             let share = f64::from(index) / pieces.si;
@@ -96,8 +97,21 @@ impl Expander {
                 self.scopes.pop();
             }
             points.push((x.si, height?.si));
-            self.spend(context, id, 0, WORK)?;
         }
         Ok(points)
+    }
+
+    /// Counts the work of a function before it is done.
+    fn foresee(&mut self, context: &Context, pieces_id: Id, of: Id, pieces: usize) -> Outcome<()> {
+        let length = context.file.tree.span(of).len();
+        let one = WORK + WORK_OF_TEXT * length;
+        let most = (MOST_WORK.saturating_sub(self.work) / one).saturating_sub(1);
+        if pieces > most {
+            let span = context.file.tree.span(pieces_id);
+            let message = format!("{pieces} pieces of a function of {length} bytes take too long: there can be {most}");
+            let help = "take fewer pieces, a shorter function, or a table: heights: (file: \"ground.csv\")";
+            return Err(Box::new(self.wrong(context, span, message).with_help(help)));
+        }
+        self.spend(context, of, 0, one * (pieces + 1))
     }
 }
