@@ -4,6 +4,7 @@ use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::inputs::is_same_file;
+use super::reading::Reading;
 use super::say::{print_json, say, say_mistakes};
 use super::{Exit, examples};
 use crate::cli::author;
@@ -44,6 +45,7 @@ impl Request<'_> {
         overrides: &Overrides,
     ) -> Result<(Source, Simulation), SceneErrors> {
         let source = source(self.name)?.with_settings(settings);
+        let _sign = Reading::begin();
         let simulation = Simulation::load_with(&source, overrides, author::plugin)?;
         Ok((source, simulation))
     }

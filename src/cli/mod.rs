@@ -27,6 +27,7 @@ mod paths;
 mod plot;
 mod progress_bar;
 mod projector;
+mod reading;
 mod render;
 mod report;
 mod result;

@@ -1,0 +1,73 @@
+//! A sign of life on standard error while a scene is read, if that takes more than a second and it is a terminal.
+
+use std::io::IsTerminal;
+use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
+use std::thread::JoinHandle;
+use std::time::{Duration, Instant};
+
+use indicatif::ProgressBar;
+
+/// The time before the first sign, and between two of them.
+const STEP: Duration = Duration::from_secs(1);
+
+/// Shows how long the reading lasts, until it is dropped.
+pub(super) struct Reading {
+    done: Option<Sender<()>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+impl Reading {
+    /// Begins now.
+    pub fn begin() -> Self {
+        if !std::io::stderr().is_terminal() {
+            return Self { done: None, thread: None };
+        }
+        let mut bar = None;
+        Self::show_each(STEP, move |since| {
+            let bar = bar.get_or_insert_with(ProgressBar::new_spinner);
+            bar.set_message(format!("reading the scene, {} s", since.as_secs()));
+            bar.tick();
+        })
+    }
+
+    /// Calls `show` after each step with the time since the beginning. It is dropped at the end.
+    fn show_each(step: Duration, mut show: impl FnMut(Duration) + Send + 'static) -> Self {
+        let (done, ended) = channel();
+        let begin = Instant::now();
+        let thread = std::thread::spawn(move || {
+            while ended.recv_timeout(step) == Err(RecvTimeoutError::Timeout) {
+                show(begin.elapsed());
+            }
+        });
+        Self { done: Some(done), thread: Some(thread) }
+    }
+}
+
+impl Drop for Reading {
+    fn drop(&mut self) {
+        self.done = None;
+        // The bar is off the screen before anything else is printed.
+        if let Some(thread) = self.thread.take() {
+            let _ = thread.join();
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_long_reading_shows_itself_and_a_short_one_does_not() {
+        let (send, shown) = channel();
+        drop(Reading::show_each(Duration::from_secs(3600), {
+            let send = send.clone();
+            move |_| drop(send.send(0))
+        }));
+        assert!(shown.try_recv().is_err());
+        let reading = Reading::show_each(Duration::from_millis(1), move |_| drop(send.send(1)));
+        assert_eq!(shown.recv(), Ok(1));
+        drop(reading);
+        assert!(shown.iter().all(|count| count == 1));
+    }
+}
