@@ -166,6 +166,8 @@ fn window(arc: &Arc, axis: DVec2, half: f64) -> Spans {
 
 /// The spans of a piece below the moved side of another hull.
 fn below(piece: &Piece, line: &Straight, ranks: Ranks) -> Spans {
+    #[cfg(test)]
+    crate::work::count();
     match piece {
         Piece::Straight(side) => segment_below(side, line, ranks),
         Piece::Arc(arc) => {

@@ -70,6 +70,8 @@ fn free(parts: &[Hull], boxes: &BoxTree, normals: &[Hull], (own, corner): (usize
     let mut free = Free::Whole;
     let (mut from, mut to) = (0.0, cone.as_ref().map_or(0.0, Cone::span));
     for rank in boxes.touching(&BoundingBox { low: place, high: place }).into_iter().filter(|rank| *rank != own) {
+        #[cfg(test)]
+        crate::work::count();
         let other = &parts[rank];
         if is_apart(other, place, other.radius() + 4.0 * tie) {
             continue;

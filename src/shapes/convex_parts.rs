@@ -136,6 +136,8 @@ impl<'a> EarRing<'a> {
     fn look_on(&mut self, corner: usize) {
         let [a, b, c] = self.triangle(corner).map(|index| self.corners[index]);
         while let Some(other) = self.unseen[corner].pop() {
+            #[cfg(test)]
+            crate::work::count();
             let p = self.corners[other];
             let holds = orientation(a, b, p) >= 0.0 && orientation(b, c, p) >= 0.0 && orientation(c, a, p) >= 0.0;
             if holds && !self.bends_out[other] {

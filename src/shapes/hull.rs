@@ -228,6 +228,17 @@ impl Hull {
     /// polygon it is half the polygon's thickness behind the sides of the part. If the part has no side of the outline,
     /// all sides count.
     pub fn half_width(&self) -> f64 {
+        self.half_width_by(&mut Thicknesses::default())
+    }
+
+    /// The half widths of hulls, in their order. Parts of one polygon share the thicknesses of its outline.
+    pub fn half_widths(hulls: &[Self]) -> Vec<f64> {
+        let mut known = Thicknesses::default();
+        hulls.iter().map(|hull| hull.half_width_by(&mut known)).collect()
+    }
+
+    fn half_width_by(&self, known: &mut Thicknesses) -> f64 {
+        known.begin(&self.outline);
         let least = |widths: &mut dyn Iterator<Item = f64>| widths.fold(f64::INFINITY, f64::min);
         let all = 0..self.outline.len();
         let own = |index: &usize| {
@@ -243,14 +254,19 @@ impl Hull {
         let width = match (self.outline.is_empty(), self.corners.len()) {
             (true, 1 | 2) => 0.0,
             (true, _) => least(&mut self.sides.iter().map(across)),
-            _ if all.clone().any(|index| own(&index)) => least(&mut all.filter(own).map(|index| self.thickness(index))),
-            _ => least(&mut all.map(|index| self.thickness(index))),
+            _ if all.clone().any(|index| own(&index)) => least(&mut all.filter(own).map(|index| known.of(self, index))),
+            _ => match known.least {
+                Some(least) => least,
+                None => *known.least.insert(least(&mut all.map(|index| self.thickness(index)))),
+            },
         };
         0.5 * width + self.radius
     }
 
     /// The thickness of the whole concave polygon's core behind the middle of a side of its outline, in metres.
     pub fn thickness(&self, side: usize) -> f64 {
+        #[cfg(test)]
+        crate::work::count();
         let (outline, count) = (&self.outline, self.outline.len());
         let ends = |index: usize| (outline[index % count], outline[(index + 1) % count]);
         let (from, to) = ends(side);
@@ -267,6 +283,28 @@ impl Hull {
     /// The distance of the farthest corner from a place, in metres. The radius does not count.
     pub fn reach_of_core(&self, from: DVec2) -> f64 {
         self.corners.iter().map(|corner| corner.distance(from)).fold(0.0, f64::max)
+    }
+}
+
+/// The thicknesses of an outline that were asked for.
+#[derive(Default)]
+struct Thicknesses {
+    outline: Vec<DVec2>,
+    of_side: Vec<Option<f64>>,
+    /// The least one of all.
+    least: Option<f64>,
+}
+
+impl Thicknesses {
+    /// Begins anew with another outline.
+    fn begin(&mut self, outline: &[DVec2]) {
+        if self.outline != outline {
+            *self = Self { outline: outline.to_vec(), of_side: vec![None; outline.len()], least: None };
+        }
+    }
+
+    fn of(&mut self, hull: &Hull, side: usize) -> f64 {
+        *self.of_side[side].get_or_insert_with(|| hull.thickness(side))
     }
 }
 

@@ -40,6 +40,25 @@ pub use shape::{MOST_CORNERS, Shape, capsule, compound, disc, polygon, rectangle
 pub use time_of_impact::{RigidMotion, time_of_impact};
 pub use voronoi_region::beyond;
 
+/// The work of making shapes, for tests that bound it: pairs of parts, pieces and corners that were looked at.
+#[cfg(test)]
+pub(crate) mod work {
+    use std::cell::Cell;
+
+    thread_local!(static WORK: Cell<u64> = const { Cell::new(0) });
+
+    pub(crate) fn count() {
+        WORK.set(WORK.get() + 1);
+    }
+
+    /// The work of a function.
+    pub(crate) fn of<T>(act: impl FnOnce() -> T) -> u64 {
+        let before = WORK.get();
+        act();
+        WORK.get() - before
+    }
+}
+
 /// The settings of the property tests: the same cases in each run, and no files of failures.
 #[cfg(test)]
 pub(crate) fn cases(seed: u64, cases: u32) -> proptest::prelude::ProptestConfig {

@@ -173,8 +173,10 @@ fn check_rounding(rounding: f64, greatest: f64) -> Result<(), ShapeError> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::gear::Gear;
     use crate::moments::AreaMoments;
     use crate::pose::{BoundingBox, Pose};
+    use crate::work;
 
     /// Law: area = that of the sharp shape, minus the loss by rounding. Tolerance: a few dozen terms below `size`^2
     /// round.
@@ -227,6 +229,45 @@ mod tests {
         }
         let Err(ShapeError::RoundingTooLarge { greatest, .. }) = polygon(&bracket, 0.6) else { panic!() };
         assert!((greatest - 0.5).abs() < 4.0 * f64::EPSILON);
+    }
+
+    /// Law: the work of a shape with its moments and marks grows as n log n in its corners if its parts are small. Four times as
+    /// many corners then take 4.8 times as long from 250 on, and a look at all pairs takes sixteen times. Parts of a star or a comb
+    /// are long slivers whose boxes meet. Their pairs are many, and the bound on corners holds: for each pair of corners, some looks.
+    #[test]
+    fn the_work_of_a_shape_grows_little_more_than_its_corners() {
+        let turned = |angle: f64, radius: f64| DVec2::from_angle(angle) * radius;
+        let step = |count: usize| std::f64::consts::TAU / count as f64;
+        let star = |count: usize| -> Vec<DVec2> {
+            (0..count).map(|at| turned(step(count) * at as f64, if at % 2 == 0 { 1.0 } else { 0.9 })).collect()
+        };
+        let comb = |count: usize| -> Vec<DVec2> {
+            let teeth = (1..count - 2).map(|at| DVec2::new((count - at) as f64, 1.0 + (at % 2) as f64));
+            [DVec2::ZERO, DVec2::new(count as f64, 0.0)].into_iter().chain(teeth).chain([DVec2::Y]).collect()
+        };
+        let spiral = |count: usize| -> Vec<DVec2> {
+            let half = count / 2;
+            let arm = |at: usize, radius: f64| turned(0.2 * at as f64, radius + 0.01 * at as f64);
+            let (out, back) = ((0..half).map(|at| arm(at, 1.0)), (0..half).rev().map(|at| arm(at, 0.8)));
+            out.chain(back).rev().collect()
+        };
+        let whole = |shape: Shape| {
+            let mut hulls = shape.hulls;
+            mark_inner(&mut hulls);
+            (AreaMoments::union_of(&hulls), Hull::half_widths(&hulls))
+        };
+        let outlines: [(&str, &dyn Fn(usize) -> Vec<DVec2>); 3] =
+            [("star", &star), ("comb", &comb), ("spiral", &spiral)];
+        let mut works: Vec<(&str, [u64; 2])> = Vec::new();
+        for (name, outline) in outlines {
+            works.push((name, [250, 1000].map(|count| work::of(|| whole(polygon(&outline(count), 0.0).unwrap())))));
+        }
+        works.push(("gear", [100, 400].map(|teeth| work::of(|| whole(Gear::new(teeth, 0.01).shape().unwrap())))));
+        for (name, [few, many]) in works {
+            let bound =
+                if ["star", "comb"].contains(&name) { 8 * (MOST_CORNERS * MOST_CORNERS) as u64 } else { 6 * few };
+            assert!(many < bound, "{name}: {few} and {many}");
+        }
     }
 
     #[test]

@@ -58,6 +58,8 @@ fn crossing(points: &[DVec2], ring: &[usize]) -> Option<ShapeError> {
         let last = if first == 0 { count - 1 } else { count };
         let others = boxes.touching(&bounds((a, b))).into_iter().filter(|second| (first + 2..last).contains(second));
         for second in others {
+            #[cfg(test)]
+            crate::work::count();
             let (c, d) = ends(second);
             let heights = [orientation(c, d, a), orientation(c, d, b), orientation(a, b, c), orientation(a, b, d)];
             let same_side = |one: f64, other: f64| (one > 0.0 && other > 0.0) || (one < 0.0 && other < 0.0);

@@ -124,8 +124,9 @@ impl PackedHull {
         let corners: usize = hulls.0.iter().map(|hull| hull.corners().len()).sum();
         let mut first = end - corners;
         // Parts that share corners are rounded alike.
-        let least = hulls.0.iter().map(Hull::half_width).fold(f64::INFINITY, f64::min);
-        hulls.0.iter().map(move |hull| {
+        let half_widths = Hull::half_widths(&hulls.0);
+        let least = half_widths.iter().copied().fold(f64::INFINITY, f64::min);
+        hulls.0.iter().zip(half_widths).map(move |(hull, half_width)| {
             let first_atom = first as u32;
             first += hull.corners().len();
             let extent = hull.reach_of_core(DVec2::ZERO) + hull.radius();
@@ -135,7 +136,7 @@ impl PackedHull {
                 first_atom,
                 hull: hull.clone(),
                 rounded: hull.rounded(ROUNDING * least),
-                half_width: hull.half_width(),
+                half_width,
                 extent,
                 circle: (middle, hull.reach_of_core(middle) + hull.radius()),
             }
