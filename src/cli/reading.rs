@@ -1,4 +1,4 @@
-//! A sign of life on standard error while a scene is read, if that takes more than a second and it is a terminal.
+//! A sign of life on standard error, if that is a terminal and a scene takes long to read.
 
 use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};

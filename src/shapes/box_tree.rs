@@ -1,5 +1,6 @@
-//! A tree of bounding boxes, halved at the middle of the longer axis (Goldsmith and Salmon 1987): the boxes that touch
-//! another one, without a look at all others.
+//! A tree of bounding boxes, halved at the middle of the longer axis (Goldsmith and Salmon 1987).
+//!
+//! It finds the boxes that touch another one, without a look at all others.
 
 use glam::DVec2;
 

@@ -69,9 +69,8 @@ fn triangles(corners: &[DVec2]) -> (Vec<Vec<usize>>, Vec<(usize, usize)>) {
 
 /// The corners that are left over, and those of them that are ears.
 ///
-/// The triangle of an ear and its neighbours has an area, and holds no other corner inside or on its edge. If it holds
-/// some, then also one at which the outline does not bend outwards: that one of them nearest to the ear. Clipping makes no
-/// corner bend inwards. So a triangle waits for one such corner at a time, and looks at each of them once.
+/// The triangle of an ear and its neighbours has an area. It holds no other corner inside or on its edge. At the held corner
+/// nearest to the tip, the outline does not bend outwards. So only such corners count. Clipping makes no corner bend inwards. So a triangle waits for one such corner at a time, and looks at each of them once.
 struct EarRing<'a> {
     corners: &'a [DVec2],
     before: Vec<usize>,

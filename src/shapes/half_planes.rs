@@ -1,7 +1,7 @@
-//! The half-planes of a core that may not hold a place: a search by halves in the order of the normals.
+//! The half-planes of a core that may not hold a place, by halves in the order of the normals.
 //!
 //! Take sides whose normals turn by less than half a turn, and any corner v of the core. Each of their normals is
-//! n = a n1 + b n2 of the first and the last one, with a, b >= 0 and a + b >= 1. The line of a side lies at
+//! `n = a n1 + b n2` of the first and the last one, with `a, b >= 0` and `a + b >= 1`. The line of a side lies at
 //! n . c >= n . v. So if n1 . (v - p) and n2 . (v - p) exceed a margin, a place p lies below all these lines by more
 //! than the margin.
 

@@ -109,7 +109,7 @@ pub fn regular(sides: usize, radius: f64, rounding: f64) -> Result<Shape, ShapeE
     Ok(Shape { lost_area, ..Shape::of(Hull::polygon(&corners, rounding)?.0) })
 }
 
-/// Corners of a polygon of a scene at most: to cut more of them and to find their contacts would take seconds.
+/// Corners of a polygon of a scene at most. The cuts and contacts of more would take seconds.
 pub const MOST_CORNERS: usize = 1000;
 
 /// A simple polygon, convex or not, with the radius of its convex corners, in metres. Corners that bend inwards stay sharp. A
@@ -231,8 +231,8 @@ mod tests {
         assert!((greatest - 0.5).abs() < 4.0 * f64::EPSILON);
     }
 
-    /// Law: the work of a shape with its moments and marks grows as n log n in its corners if its parts are small. Four times as
-    /// many corners then take 4.8 times as long from 250 on, and a look at all pairs takes sixteen times. Parts of a star or a comb
+    /// Law: the work of a shape with its moments and marks grows as `n log n` if its parts are small. From 250
+    /// corners on, four times as many take 4.8 times as long. A look at all pairs takes sixteen times. Parts of a star or a comb
     /// are long slivers whose boxes meet. Their pairs are many, and the bound on corners holds: for each pair of corners, some looks.
     #[test]
     fn the_work_of_a_shape_grows_little_more_than_its_corners() {

@@ -19,6 +19,7 @@ mod letting_go;
 mod messages;
 mod other_kind;
 mod ran;
+mod reading_cost;
 mod releases;
 mod soft_contacts;
 mod statements;

@@ -1,6 +1,6 @@
 //! Bodies and walls by name.
 //!
-//! While a scene is put together, and while many are looked for, an index holds them: a look-up then costs a logarithm
+//! An index holds them while a scene is put together, and while many are looked for. A look-up then costs a logarithm
 //! of their number. The index is made anew if their number changed, or if an entity lost its name.
 
 use std::collections::BTreeMap;
@@ -88,4 +88,39 @@ fn named<C: Component>(world: &mut World, name: &str, list: List) -> Option<Enti
     let listed = list(&mut index);
     *listed = Listed { by_name, count };
     listed.by_name.get(name).copied()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[derive(Component)]
+    struct Thing;
+
+    fn of(world: &mut World, name: &str) -> Option<Entity> {
+        named::<Thing>(world, name, |index| &mut index.bodies)
+    }
+
+    /// Law: as many names are written as there are things, whatever the number of look-ups. Things that come, go or change their
+    /// names are found all the same.
+    #[test]
+    fn names_are_written_once_for_all_look_ups() {
+        let mut world = World::new();
+        let mut all: Vec<Entity> =
+            (0..100).map(|index| world.spawn((Thing, Name::from(format!("thing {index}")))).id()).collect();
+        with_index(&mut world, |world| {
+            for (index, entity) in all.iter().enumerate() {
+                assert_eq!(of(world, &format!("thing {index}")), Some(*entity));
+            }
+            assert_eq!((of(world, "no thing"), world.resource::<NameIndex>().written), (None, 100));
+            all.push(world.spawn((Thing, Name::from("late"))).id());
+            assert_eq!(of(world, "late"), Some(all[100]));
+            world.entity_mut(all[100]).insert(Name::from("later"));
+            assert_eq!((of(world, "late"), of(world, "later")), (None, Some(all[100])));
+            world.despawn(all[0]);
+            assert_eq!(of(world, "thing 0"), None);
+        });
+        assert!(!world.contains_resource::<NameIndex>());
+        assert_eq!(of(&mut world, "later"), Some(all[100]));
+    }
 }

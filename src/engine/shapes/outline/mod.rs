@@ -232,7 +232,7 @@ fn remedy(error: ShapeError) -> Option<&'static str> {
         }
         ShapeError::SelfCrossing { .. } => "give the corners in order, around the outline",
         ShapeError::RoundingTooLarge { .. } => "make `rounding` smaller, or the shape larger",
-        ShapeError::TooMany { .. } => "leave out those that are hardly seen, or make several shapes of it",
+        ShapeError::TooMany { .. } => "take fewer of them, or divide the shape into several",
         _ => return None,
     })
 }

@@ -200,6 +200,8 @@ mod tests {
             ("<path d=\"M0 0 L1 0\"/>", None, "has no outline"),
             ("<g transform=\"turn(3)\"><circle r=\"3\"/></g>", None, "`transform` means nothing"),
             ("<g>", None, "is no SVG file"),
+            (&"<path d=\"M0 0h1v1z\"/>".repeat(1001), None, "more than 2000 lines and curves"),
+            (&format!("<path d=\"M0 0{}z\"/>", "h1v1".repeat(1001)), None, "more than 2000 lines and curves"),
             ("<path d=\"M0 0 L1e300 0 C1e308 1e308 -1e308 1e308 0 1e300 Z\"/>", None, "more than 2000 points"),
         ] {
             let (message, ..) = read(body, id).unwrap_err();

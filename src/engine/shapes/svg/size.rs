@@ -1,8 +1,7 @@
-//! The size of a drawing before it is read: its text with entities written out, and numbers whose squares the reader's
-//! time follows.
+//! The size of a drawing before it is read: its text with entities written out, and some numbers.
 //!
-//! The XML reader compares each attribute of an element with the others, each reference with all entities, and copies
-//! the namespaces of outer elements into inner ones. It writes entities out where they are used.
+//! The XML reader compares each attribute of an element with the others, and each reference with all entities. It copies
+//! the namespaces of outer elements into inner ones, and writes entities out at each use. So its time follows squares.
 
 use std::collections::BTreeMap;
 
