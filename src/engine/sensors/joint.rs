@@ -8,6 +8,7 @@ use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::names::{model_named, model_still};
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::joints::{self, Coupling};
 use crate::scene::values::Names;
@@ -47,19 +48,19 @@ impl Entry for Joint {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let state = world.get_resource::<State>()?;
-    let named = |coupling: &&Coupling, name: &str| coupling.name == name;
-    if let Some(coupling) = state.models_of::<Coupling>().find(|coupling| named(coupling, owner)) {
-        let (gives, unit) = coupling.gives();
+    let name_of: fn(&Coupling) -> &str = |coupling| &coupling.name;
+    if let Some(place) = model_named(world, owner, name_of) {
+        let (gives, unit) = world.resource::<State>().model_at::<Coupling>(place)?.gives();
         let name = owner.to_owned();
         let read = move |state: &State| {
-            let coupling = state.models_of::<Coupling>().find(|coupling| named(coupling, &name));
+            let coupling = model_still(state, (place, &name), name_of);
             coupling.map_or(f64::NAN, |coupling| known(state, coupling.force))
         };
         return (quantity == gives).then(|| Channel::of_state(format!("{owner}.{quantity}"), unit, read));
     }
-    let index = state.models_of::<joints::Joint>().position(|joint| joint.name == owner)?;
-    let joint = state.models_of::<joints::Joint>().nth(index)?;
+    let name_of: fn(&joints::Joint) -> &str = |joint| &joint.name;
+    let place = model_named(world, owner, name_of)?;
+    let joint = world.resource::<State>().model_at::<joints::Joint>(place)?;
     let (freedom, free_unit) = joint.law.freedom_name();
     let (unit, read): (_, fn(&joints::Joint, &State) -> f64) = match quantity {
         "rate" => (if free_unit == "m" { "m/s" } else { "rad/s" }, |joint, state| of_freedom(joint, state).1),
@@ -72,10 +73,7 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
     };
     let name = owner.to_owned();
     let read = move |state: &State| {
-        let mut joints = state.models_of::<joints::Joint>();
-        // It stands where it stood, unless models came or went.
-        let found = joints.nth(index).filter(|joint| joint.name == name);
-        let found = found.or_else(|| state.models_of::<joints::Joint>().find(|joint| joint.name == name));
+        let found = model_still(state, (place, &name), name_of);
         found.map_or(f64::NAN, |joint| read(joint, state))
     };
     Some(Channel::of_state(format!("{owner}.{quantity}"), unit, read))

@@ -6,6 +6,7 @@ use bevy_ecs::prelude::*;
 use schemars::JsonSchema;
 use serde::Deserialize;
 
+use super::names::{model_named, model_still};
 use super::{Channel, SensorAppExt, add_found, known};
 use crate::controllers::Output;
 use crate::controllers::output::CONTROLLER;
@@ -44,15 +45,16 @@ impl Entry for Motor {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let state = world.get_resource::<State>()?;
-    let index = state.models_of::<Output>().position(|output| output.name == owner)?;
+    let name_of: fn(&Output) -> &str = |output| &output.name;
+    let place = model_named(world, owner, name_of)?;
     let (unit, read): (_, fn(&Output) -> f64) = match quantity {
         "torque" => ("N m", |output| output.values.0),
         "power" => ("W", |output| output.values.1),
         _ => return None,
     };
+    let name = owner.to_owned();
     let value = move |state: &State| {
-        let output = state.models_of::<Output>().nth(index);
+        let output = model_still(state, (place, &name), name_of);
         output.map_or(f64::NAN, |output| known(state, read(output)))
     };
     Some(Channel::of_state(format!("{owner}.{quantity}"), unit, value))

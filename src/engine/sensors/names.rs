@@ -1,21 +1,25 @@
-//! Bodies and walls by name.
+//! Bodies, walls and models by name.
 //!
 //! An index holds them while a scene is put together, and while many are looked for. A look-up then costs a logarithm
 //! of their number. The index is made anew if their number changed, or if an entity lost its name.
 
+use std::any::TypeId;
 use std::collections::BTreeMap;
 
 use bevy_ecs::prelude::*;
 
 use crate::scene::values::Names;
 use crate::scene::{NameKind, Outline};
+use crate::tick::State;
 use crate::world::{Body, Name, Wall};
 
-/// Bodies and walls by name.
+/// Bodies, walls and models by name.
 #[derive(Resource, Default)]
 pub(super) struct NameIndex {
     bodies: Listed,
     walls: Listed,
+    /// For each type the number of all models when its list was made, and the places of its models among all.
+    models: BTreeMap<TypeId, (usize, BTreeMap<String, usize>)>,
     /// Names that were written into the index, the measure of its cost.
     #[cfg(test)]
     pub written: usize,
@@ -61,6 +65,39 @@ pub(super) fn with_index<T>(world: &mut World, look: impl FnOnce(&mut World) -> 
 /// The scene is put together: from now on names are searched for, because bodies come and go.
 pub(crate) fn forget_names(world: &mut World) {
     world.remove_resource::<NameIndex>();
+}
+
+/// The place among all models of the first one of a type with this name.
+pub(super) fn model_named<T: 'static>(world: &mut World, name: &str, name_of: fn(&T) -> &str) -> Option<usize> {
+    let state = world.get_resource::<State>()?;
+    let count = state.model_count();
+    let bears_it = |place: usize| state.model_at(place).is_some_and(|model| name_of(model) == name);
+    let Some(index) = world.get_resource::<NameIndex>() else { return (0..count).find(|place| bears_it(*place)) };
+    if let Some((_, places)) = index.models.get(&TypeId::of::<T>()).filter(|(known, _)| *known == count) {
+        let found = places.get(name).copied();
+        if found.is_none_or(bears_it) {
+            return found;
+        }
+    }
+    let mut places = BTreeMap::new();
+    for place in 0..count {
+        if let Some(model) = state.model_at(place) {
+            places.entry(name_of(model).to_owned()).or_insert(place);
+        }
+    }
+    let found = places.get(name).copied();
+    world.resource_mut::<NameIndex>().models.insert(TypeId::of::<T>(), (count, places));
+    found
+}
+
+/// A model at a place among all. If models came or went, it is looked for by its name.
+pub(super) fn model_still<'a, T: 'static>(
+    state: &'a State,
+    (place, name): (usize, &str),
+    name_of: fn(&T) -> &str,
+) -> Option<&'a T> {
+    let found = state.model_at(place).filter(|model| name_of(model) == name);
+    found.or_else(|| state.models_of().find(|model| name_of(model) == name))
 }
 
 fn named<C: Component>(world: &mut World, name: &str, list: List) -> Option<Entity> {

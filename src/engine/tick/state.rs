@@ -280,10 +280,17 @@ impl State {
 
     /// All models of a type, in order.
     pub fn models_of<T: 'static>(&self) -> impl Iterator<Item = &T> {
-        self.models().filter_map(|model| {
-            let own: &dyn std::any::Any = model;
-            own.downcast_ref().or_else(|| model.inner()?.downcast_ref())
-        })
+        self.models().filter_map(of_type)
+    }
+
+    /// The number of all models.
+    pub(crate) fn model_count(&self) -> usize {
+        self.models.len()
+    }
+
+    /// The model at a place among all models, if it is of a type.
+    pub(crate) fn model_at<T: 'static>(&self, place: usize) -> Option<&T> {
+        self.models.get(place).and_then(|model| of_type(&**model))
     }
 
     /// The first model of a type.
@@ -565,4 +572,10 @@ impl State {
         }
         true
     }
+}
+
+/// The model, or the one inside it, if it is of a type.
+fn of_type<T: 'static>(model: &dyn Model) -> Option<&T> {
+    let own: &dyn std::any::Any = model;
+    own.downcast_ref().or_else(|| model.inner()?.downcast_ref())
 }
