@@ -23,6 +23,9 @@ pub(crate) const EMBEDDING: Embedding = Embedding {
 const DRAWING: FileRequest =
     FileRequest { most: MOST_TEXT as u64, noun: "an SVG file", smaller: "make the drawing simpler" };
 
+/// So many bytes of a file take as long as one value. Each entry reads its file.
+const BYTES_READ: usize = 64;
+
 /// The drawings that were read, so that each note appears once.
 #[derive(Default)]
 struct Drawings(Vec<(String, Outlines)>);
@@ -34,7 +37,7 @@ impl Embed for Drawings {
         let told = |(message, help, field): Wrong| UnfitFile { message, help, field };
         let size = size(&shape).map_err(told)?;
         let name = &shape.file;
-        let outlines = read(&shape, size, folder, door).map_err(told)?;
+        let (outlines, length) = read(&shape, size, folder, door).map_err(told)?;
         let mut fields = String::from("outlines: [");
         for polygon in &outlines.polygons {
             fields.push('[');
@@ -48,7 +51,7 @@ impl Embed for Drawings {
         let known = (name.clone(), outlines.clone());
         let note = (!self.0.contains(&known)).then(|| note(&shape, &outlines));
         self.0.push(known);
-        Ok(Some(Embedded { work: fields.len() / 16, fields, note, data: None }))
+        Ok(Some(Embedded { work: fields.len() / 16 + length / BYTES_READ, fields, note, data: None }))
     }
 }
 
@@ -73,7 +76,7 @@ fn size(shape: &SvgShape) -> Result<Size, Wrong> {
     }
 }
 
-fn read(shape: &SvgShape, size: Size, folder: Option<&Path>, door: &Door) -> Result<Outlines, Wrong> {
+fn read(shape: &SvgShape, size: Size, folder: Option<&Path>, door: &Door) -> Result<(Outlines, usize), Wrong> {
     let name = &shape.file;
     let Some(folder) = folder else {
         let message = "this scene is in no file, so no drawing can be found from it";
@@ -81,6 +84,7 @@ fn read(shape: &SvgShape, size: Size, folder: Option<&Path>, door: &Door) -> Res
     };
     let bytes = DRAWING.read(door, &folder.join(name), name).map_err(|(message, help)| (message, help, "file"))?;
     Outlines::read(&bytes, shape.id.as_deref(), size, shape.tolerance.map(f64::from))
+        .map(|outlines| (outlines, bytes.len()))
         .map_err(|(message, help, field)| (format!("`{name}`: {message}"), help, field))
 }
 
