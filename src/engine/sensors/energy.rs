@@ -43,10 +43,13 @@ impl Entry for Energy {
 }
 
 fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
+    if owner != "energy" {
+        return None;
+    }
     let name = format!("{owner}.{quantity}");
     let Some(part) = entry(owner, quantity) else {
         let mut accounts = world.resource::<State>().models().filter_map(|model| model.loss());
-        let account = accounts.find(|loss| owner == "energy" && loss.account == quantity)?.account;
+        let account = accounts.find(|loss| loss.account == quantity)?.account;
         return Some(Channel::of_state(name, "J", move |state| state.ledger().lost(account).unwrap_or(0.0)));
     };
     Some(Channel::of_state(name, "J", move |state| part(&EnergyLedger::of(state))))
