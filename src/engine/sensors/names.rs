@@ -18,7 +18,7 @@ use crate::world::{Body, Name, Wall};
 pub(super) struct NameIndex {
     bodies: Listed,
     walls: Listed,
-    /// For each type the number of all models when its list was made, and the places of its models among all.
+    /// For each type, its places among all models, and the number of all models at that time.
     models: BTreeMap<TypeId, (usize, BTreeMap<String, usize>)>,
     /// Names that were written into the index, the measure of its cost.
     #[cfg(test)]
