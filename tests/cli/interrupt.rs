@@ -57,7 +57,8 @@ fn ctrl_c_ends_a_film_with_all_frames_and_the_card_so_far() {
     for text in ["frames before Ctrl-C", "Ctrl-C ended the run at t = ", "energy residual"] {
         assert!(said.contains(text), "{said}");
     }
-    let mut film = gif::DecodeOptions::new().read_info(&folder.read("fall.gif")[..]).expect("a whole film");
+    let bytes = folder.read("fall.gif");
+    let mut film = gif::DecodeOptions::new().read_info(&bytes[..]).expect("a whole film");
     let mut frames = 0;
     while film.read_next_frame().expect("whole frames").is_some() {
         frames += 1;
