@@ -15,7 +15,7 @@ pub(super) fn arm() {
         }
         say("interrupted: the program keeps all that was reached. Press Ctrl-C again to end it at once");
     };
-    // The second scene of a command finds the handler of the first. Where none can be set, Ctrl-C ends the program.
+    // The second scene of a command finds the handler of the first. Without any, Ctrl-C ends the program.
     let _ = ctrlc::set_handler(end);
 }
 

@@ -1,5 +1,5 @@
-//! Hidden characters of a text, shown as escapes: those that a terminal obeys, and those that it does not draw
-//! (Unicode Standard Annex #44, `Default_Ignorable_Code_Point`; Boucher and Anderson 2021, *Trojan Source*).
+//! Hidden characters of a text, shown as escapes. A terminal obeys some of them, and does not draw the others. Sources: Unicode
+//! Standard Annex #44, `Default_Ignorable_Code_Point`; Boucher and Anderson 2021, *Trojan Source*.
 //!
 //! A scene may come from a stranger, and its texts stand in messages, cards and tables. The command line prints each
 //! of them through this mask.

@@ -11,7 +11,7 @@ use crate::scene::number;
 pub struct Failure {
     /// Name of the first body that failed, or of the one with most of the energy.
     pub body: String,
-    /// Name of the other body or wall in it, or the place of a force in the scene, or an empty text.
+    /// Name of the other body or wall in it, or the place of a force in the scene. It may be empty.
     pub other: String,
     /// The failure.
     pub wrong: FailureKind,

@@ -375,7 +375,7 @@ impl State {
         self.roles.edges.iter().map(|index| self.models[*index].next_edge(now)).fold(f64::INFINITY, f64::min)
     }
 
-    /// The index of the first model whose forces or their rates jump at `edge`, with none of its jumps from `now` to then.
+    /// The index of the first model whose forces or their rates jump at `edge`. None of its jumps lies between `now` and then.
     pub(super) fn model_of_edge(&self, now: f64, edge: f64) -> Option<usize> {
         self.roles.edges.iter().copied().find(|index| self.models[*index].next_edge(now) == edge)
     }
