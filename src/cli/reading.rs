@@ -62,10 +62,14 @@ mod tests {
         let (send, shown) = channel();
         drop(Reading::show_each(Duration::from_secs(3600), {
             let send = send.clone();
-            move |_| drop(send.send(0))
+            move |_| {
+                let _ = send.send(0);
+            }
         }));
         assert!(shown.try_recv().is_err());
-        let reading = Reading::show_each(Duration::from_millis(1), move |_| drop(send.send(1)));
+        let reading = Reading::show_each(Duration::from_millis(1), move |_| {
+            let _ = send.send(1);
+        });
         assert_eq!(shown.recv(), Ok(1));
         drop(reading);
         assert!(shown.iter().all(|count| count == 1));

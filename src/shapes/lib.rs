@@ -40,6 +40,13 @@ pub use shape::{MOST_CORNERS, Shape, capsule, compound, disc, polygon, rectangle
 pub use time_of_impact::{RigidMotion, time_of_impact};
 pub use voronoi_region::beyond;
 
+/// The settings of the property tests: the same cases in each run, and no files of failures.
+#[cfg(test)]
+pub(crate) fn cases(seed: u64, cases: u32) -> proptest::prelude::ProptestConfig {
+    let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
+    proptest::prelude::ProptestConfig { cases, rng_seed, failure_persistence: None, ..Default::default() }
+}
+
 /// The work of making shapes, for tests that bound it: pairs of parts, pieces and corners that were looked at.
 #[cfg(test)]
 pub(crate) mod work {
@@ -57,11 +64,4 @@ pub(crate) mod work {
         act();
         WORK.get() - before
     }
-}
-
-/// The settings of the property tests: the same cases in each run, and no files of failures.
-#[cfg(test)]
-pub(crate) fn cases(seed: u64, cases: u32) -> proptest::prelude::ProptestConfig {
-    let rng_seed = proptest::test_runner::RngSeed::Fixed(seed);
-    proptest::prelude::ProptestConfig { cases, rng_seed, failure_persistence: None, ..Default::default() }
 }

@@ -256,8 +256,8 @@ mod tests {
             mark_inner(&mut hulls);
             (AreaMoments::union_of(&hulls), Hull::half_widths(&hulls))
         };
-        let outlines: [(&str, &dyn Fn(usize) -> Vec<DVec2>); 3] =
-            [("star", &star), ("comb", &comb), ("spiral", &spiral)];
+        type Outline<'a> = &'a dyn Fn(usize) -> Vec<DVec2>;
+        let outlines: [(&str, Outline); 3] = [("star", &star), ("comb", &comb), ("spiral", &spiral)];
         let mut works: Vec<(&str, [u64; 2])> = Vec::new();
         for (name, outline) in outlines {
             works.push((name, [250, 1000].map(|count| work::of(|| whole(polygon(&outline(count), 0.0).unwrap())))));
