@@ -107,7 +107,7 @@ fn draw(text: &str, end: f64, scratch: &Path) {
     let line = line.into_iter().chain(["--duration", &end, "--at", &end]);
     let exit = CommandLine::try_parse_from(line).map(CommandLine::execute);
     match exit {
-        Ok(Exit::Good | Exit::SceneWrong | Exit::RunWrong) => {}
+        Ok(Exit::Good | Exit::SceneWrong | Exit::RunWrong | Exit::Interrupted) => {}
         Ok(Exit::Usage) => broken("a picture of a good scene is refused as a wrong command line"),
         Err(error) => broken(&format!("the command line is refused: {error}")),
     }
