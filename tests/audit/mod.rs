@@ -16,6 +16,7 @@ mod impact;
 mod indeterminate;
 mod landings;
 mod letting_go;
+mod lifted_boxes;
 mod messages;
 mod other_kind;
 mod ran;

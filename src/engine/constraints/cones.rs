@@ -64,18 +64,20 @@ impl Rows {
         let open = |row: &usize| !refused.contains(row) && given.iter().all(|other| other.row != *row);
         let beyond = (0..self.len()).filter(open).filter_map(|row| {
             let cone = self.row(row).cone?;
-            let (force, limit) = (self.force(row), self.limit(cone));
-            (force.abs() > limit).then_some((force.abs() / limit, AtBound { row, sign: force.signum(), cone }))
+            let (force, pressure) = (self.force(row), self.pressure(cone));
+            // A stage of a step may lie behind the moment at which a contact is let go. Forces go on smoothly there, and pull.
+            let beyond = pressure >= 0.0 && force.abs() > cone.coefficient * pressure;
+            beyond.then_some((force.abs() / (cone.coefficient * pressure), AtBound { row, sign: force.signum(), cone }))
         });
         beyond.reduce(|most, next| if next.0 > most.0 { next } else { most }).map(|(_, row)| row)
     }
 
-    fn limit(&self, cone: Cone) -> f64 {
-        let force = match cone.pressure {
+    /// The normal force in newtons beneath a cone.
+    fn pressure(&self, cone: Cone) -> f64 {
+        match cone.pressure {
             ConePressure::Row(row) => self.force(row),
             ConePressure::Force(force) => force,
-        };
-        cone.coefficient * force.max(0.0)
+        }
     }
 
     /// The forces of all rows, of which some give their bounds, and whether the others hold those.
@@ -99,7 +101,7 @@ impl Rows {
         let known: Vec<(usize, f64)> = given
             .iter()
             .filter(|other| matches!(other.cone.pressure, ConePressure::Force(_)))
-            .map(|other| (other.row, other.sign * self.limit(other.cone)))
+            .map(|other| (other.row, other.sign * other.cone.coefficient * self.pressure(other.cone)))
             .collect();
         let beside = |row: &super::Row| -> f64 {
             known.iter().map(|(other, force)| row.response(self.row(*other), bodies) * force).sum()
@@ -121,7 +123,7 @@ impl Rows {
                 ConePressure::Row(row) => answer[row],
                 ConePressure::Force(force) => force,
             };
-            answer[other.row] = other.sign * (other.cone.coefficient * force.max(0.0));
+            answer[other.row] = other.sign * (other.cone.coefficient * force);
         }
         (answer, held)
     }

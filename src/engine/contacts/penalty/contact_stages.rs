@@ -65,7 +65,7 @@ pub(super) fn take_rows(
             (HeldPart::Rolling, roller) => {
                 if let Some((slider, rolling_law)) = roller {
                     slider.held = -force;
-                    rolling_stages::push(slider, &rolling_law, geometry, sink);
+                    rolling_stages::push(slider, slider.force(&rolling_law), geometry, sink);
                 }
                 continue;
             }
@@ -79,13 +79,13 @@ pub(super) fn take_rows(
                     && slider.grip == Grip::Slide
                 {
                     rolling_stages::slip(slider, &rolling_law, force);
-                    rolling_stages::push(slider, &rolling_law, geometry, sink);
+                    rolling_stages::push(slider, slider.sliding_force(&rolling_law, force), geometry, sink);
                 }
                 let sliding = contact.tangential.grip == Grip::Slide;
                 if sliding {
                     contact.slide(law, force);
                 }
-                (Some(force), if sliding { contact.tangential.held } else { 0.0 })
+                (Some(force), if sliding { contact.tangential.sliding_force(&law.tangential(), force) } else { 0.0 })
             }
         };
         let push = geometry.pair.normal * normal.unwrap_or(0.0) - geometry.pair.normal.perp() * tangent_force;
@@ -121,7 +121,11 @@ fn stage<N: NormalForce>(
     let tangent_held = acts && contact.tangential.grip == Grip::Hold;
     let tangent_waits = !acts || tangent_held || (normal_held && contact.tangential.grip == Grip::Slide);
     let normal = (!normal_held).then_some(contact.normal_force);
-    let tangential = if tangent_waits { 0.0 } else { contact.tangential_force(law) };
+    let tangential = match contact.tangential.grip {
+        _ if tangent_waits => 0.0,
+        Grip::Slide => contact.tangential.sliding_force(&law.tangential(), contact.normal_force),
+        _ => contact.tangential_force(law),
+    };
     if normal_held {
         let slope = if contact.tangential.grip == Grip::Slide {
             law.friction_dynamic.copysign(contact.tangential.held)

@@ -81,6 +81,11 @@ impl Slider {
         }
     }
 
+    /// The force in newtons of a slide in a stage of a step. Behind the moment at which its contact is let go, both forces pull.
+    pub(super) fn sliding_force(&self, law: &SliderLaw, normal_force: f64) -> f64 {
+        law.friction_dynamic.copysign(self.held) * normal_force
+    }
+
     /// Whether it slides with a force that its spring is not drawn to.
     fn slides_without_spring(&self, law: &SliderLaw) -> bool {
         self.grip == Grip::Slide && (law.stiffness * self.elongation - self.held).abs() > ROUNDING * self.held.abs()

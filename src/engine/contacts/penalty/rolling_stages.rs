@@ -98,9 +98,9 @@ pub(super) fn stage(
         Grip::Slide if contact.mode == Mode::Hold => {}
         Grip::Slide => {
             slip(slider, &law, contact.normal_force);
-            push(slider, &law, geometry, sink);
+            push(slider, slider.sliding_force(&law, contact.normal_force), geometry, sink);
         }
-        Grip::Stick | Grip::Slip => push(slider, &law, geometry, sink),
+        Grip::Stick | Grip::Slip => push(slider, slider.force(&law), geometry, sink),
     }
 }
 
@@ -110,9 +110,8 @@ pub(super) fn slip(slider: &mut Slider, law: &SliderLaw, normal_force: f64) {
     slider.elongation = slider.held / law.stiffness;
 }
 
-/// Lets the spring act, and books what slipping takes.
-pub(super) fn push(slider: &Slider, law: &SliderLaw, geometry: &PairGeometry, sink: &mut Sink) {
-    let torque = slider.force(law);
+/// Lets the spring act with a torque, and books what slipping takes.
+pub(super) fn push(slider: &Slider, torque: f64, geometry: &PairGeometry, sink: &mut Sink) {
     twist(sink.bodies, sink.rates, geometry.pair.other_end(), &geometry.pair.b, torque);
     if slider.grip == Grip::Slide {
         sink.rates.friction += torque * geometry.turning();
