@@ -24,4 +24,5 @@ mod reading_cost;
 mod releases;
 mod soft_contacts;
 mod statements;
+mod supports_that_start;
 mod tolerances;

@@ -160,6 +160,14 @@ impl Slider {
         self.grip == Grip::Slide && before.is_some_and(|before| before.grip == Grip::Hold)
     }
 
+    /// Takes back a slide that was tried at one moment with the state `before`, in which it held or stuck. The slide drew its
+    /// spring, which takes time.
+    pub(super) fn undo_slide(&mut self, before: Option<Self>) {
+        if let Some(before) = before.filter(|before| self.grip == Grip::Slide && before.grip != Grip::Slide) {
+            *self = before;
+        }
+    }
+
     /// Lets a spring swing back that stuck `before`, and was tried as held at its turning point. Returns whether it
     /// did.
     pub(super) fn swing_back(&mut self, before: Option<Self>) -> bool {

@@ -28,7 +28,7 @@ impl View<'_> {
             // Another model may have ended the step: what springs that slip have given in it is lost too.
             let slid = self.close_slides();
             self.contacts.held_before = Some(self.stored(|_| true) + slid);
-            self.contacts.before.clear();
+            self.note_springs();
             self.contacts.stopped.clear();
         }
         let corrected = self.settle_held_friction::<N>()
@@ -101,20 +101,26 @@ impl View<'_> {
             if gave || rolled {
                 continue;
             }
-            self.release(index, if is_below { Mode::Unloading } else { Mode::Loading });
+            self.release(index, if is_below { Mode::Unloading } else { Mode::Loading }, before);
             released.push(index as u32);
         }
         (self.contacts.before, self.contacts.released) = (springs, released);
         corrected
     }
 
-    /// A held contact goes on in a mode.
-    fn release(&mut self, index: usize, mode: Mode) {
+    /// A held contact goes on in a mode. Its springs are as drawn as `before`: a slide that was tried at this moment drew none.
+    /// Friction that slid up to this moment slides on.
+    fn release(&mut self, index: usize, mode: Mode, mut before: [Option<Slider>; 2]) {
+        if self.contacts.stopped.contains(&(index as u32)) {
+            before[0] = None;
+        }
         let geometry = self.look(index);
         let (mut contact, law, roller) = self.whole(index, &geometry);
         contact.mode = mode;
+        contact.tangential.undo_slide(before[0]);
         contact.come_loose(law, &geometry);
         if let Some((slider, law)) = roller {
+            slider.undo_slide(before[1]);
             rolling_stages::come_loose((slider, law), &contact, &geometry);
         }
     }
@@ -129,7 +135,8 @@ impl View<'_> {
             let mode = mode.and_then(|_| moves_on(law, &geometry, bodies));
             drop(contact);
             if let Some(mode) = mode {
-                self.release(index, mode);
+                let before = self.contacts.before.get(index).copied().unwrap_or_default();
+                self.release(index, mode, before);
                 corrected = true;
             }
         }

@@ -246,7 +246,7 @@ impl View<'_> {
     }
 
     /// Notes the springs that hold or stick, or slip beside a normal force that is not held.
-    fn note_springs(&mut self) {
+    pub(super) fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
         for index in 0..self.len() {
