@@ -6,7 +6,7 @@
 //! are allowed. Each text of a scene takes part: as it stands, and as escapes of the scene language. JSON and formatted
 //! scenes must also keep their meaning. Not tested: pixels of films on standard output, and messages of the system's loader.
 
-use std::io::Write;
+use std::io::{ErrorKind, Write};
 use std::path::PathBuf;
 use std::process::{Command, Output, Stdio};
 
@@ -107,7 +107,11 @@ impl Folder {
             .stdout(Stdio::piped())
             .stderr(Stdio::piped());
         let mut child = command.spawn().unwrap();
-        child.stdin.take().unwrap().write_all(input.as_bytes()).unwrap();
+        match child.stdin.take().unwrap().write_all(input.as_bytes()) {
+            // A command that reads no input may have ended before.
+            Err(gone) if gone.kind() == ErrorKind::BrokenPipe => {}
+            written => written.unwrap(),
+        }
         let output = child.wait_with_output().unwrap();
         for (stream, bytes) in [("output", &output.stdout), ("error", &output.stderr)] {
             let text =
