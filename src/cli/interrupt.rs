@@ -7,16 +7,30 @@ use super::say::say;
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
-/// From here on a Ctrl-C waits for the end of the tick. Before, it ends the program: nothing is there to be kept.
-pub(super) fn arm() {
+/// Whether the command has begun with what an interruption keeps.
+static KEEPS: AtomicBool = AtomicBool::new(false);
+
+/// From here on a Ctrl-C ends the program with a word. Trials of a tolerance and a look ahead for the camera keep nothing. The next scene
+/// of a command calls it again.
+pub(super) fn watch() {
+    KEEPS.store(false, Ordering::Relaxed);
     let end = || {
         if ASKED.swap(true, Ordering::Relaxed) {
+            std::process::exit(Exit::Interrupted as i32);
+        }
+        if !KEEPS.load(Ordering::Relaxed) {
+            say("interrupted before the first row or frame: there is nothing to keep");
             std::process::exit(Exit::Interrupted as i32);
         }
         say("interrupted: the program keeps all that was reached. Press Ctrl-C again to end it at once");
     };
     // The second scene of a command finds the handler of the first. Without any, Ctrl-C ends the program.
     let _ = ctrlc::set_handler(end);
+}
+
+/// From here on a Ctrl-C waits for the end of the tick.
+pub(super) fn arm() {
+    KEEPS.store(true, Ordering::Relaxed);
 }
 
 /// Whether the user asked for the end.

@@ -143,6 +143,7 @@ impl Render {
         let layers = self.layers.clone().map(|layers| layers.0);
         let threads = Some(self.threads.unwrap_or_else(all_cores));
         let overrides = Overrides { layers, threads, ..self.overrides.overrides() };
+        interrupt::watch();
         let (source, mut simulation) = match request.load(&self.overrides.settings, &overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,

@@ -84,3 +84,25 @@ fn ctrl_c_ends_a_run_with_all_rows_and_its_result_so_far() {
     let last: f64 = rows.lines().last().and_then(|row| row.split(',').next()).expect("a row").parse().expect("a time");
     assert!(rows.ends_with('\n') && last <= reached, "{last} of {reached}");
 }
+
+/// A look ahead for the camera keeps nothing, and says so. A Ctrl-C that comes before the program listens ends it without a word, so the
+/// test waits longer then.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_before_the_first_frame_says_that_nothing_is_kept() {
+    let folder = Folder::new("ctrl_c_early").with("fall.ron", FALL);
+    let after = |wait: Duration| {
+        let mut command = folder.command("render fall.ron --duration 5e4 --tick 1e-3 -o fall.gif");
+        let child = command.stdout(Stdio::null()).stderr(Stdio::piped()).spawn().expect("the program is built");
+        std::thread::sleep(wait);
+        Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill is installed");
+        child.wait_with_output().expect("it ends")
+    };
+    let waits = [0.3, 1.0, 5.0].map(Duration::from_secs_f64);
+    let heard = waits.into_iter().map(after).find(|ended| ended.status.code().is_some());
+    let ended = heard.expect("it listens after some seconds");
+    let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(130), "{said}");
+    assert!(said.contains("there is nothing to keep"), "{said}");
+    assert_eq!(folder.names(), ["fall.ron"]);
+}
