@@ -3,7 +3,8 @@
 //!
 //! Reference: velocity Verlet with fine ticks, whose springs follow the displacements of their ends.
 //!
-//! Tolerance: the way that the box goes in two ticks of the reference. Not tested: boxes that land with friction.
+//! Tolerance: the way that the box goes in two ticks of the reference. The box that falls on its side agrees to the coarsest tolerance
+//! of its runs. Not tested: boxes that land, from tick to tick.
 
 use glam::DVec2;
 use jostle::Simulation;
@@ -74,9 +75,10 @@ fn a_slide_that_ends_beyond_the_cone_goes_on_the_other_way() {
         method: Some(method.to_owned()),
         ..Overrides::default()
     };
+    const COARSEST: f64 = 1e-6;
     let (exact, _) = end(text, tolerance(1e-9));
-    for overrides in [tolerance(1e-6), steps("RungeKutta4", 1e-4), steps("Dop853", 1e-3)] {
+    for overrides in [tolerance(COARSEST), steps("RungeKutta4", 1e-4), steps("Dop853", 1e-3)] {
         let (place, _) = end(text, overrides.clone());
-        assert!(place.distance(exact) < 1e-6, "{overrides:?}: {place} instead of {exact}");
+        assert!(place.distance(exact) < COARSEST, "{overrides:?}: {place} instead of {exact}");
     }
 }
