@@ -90,6 +90,11 @@ impl TryFrom<Listed> for PairBlocks {
 const NOT_AN_INDEX: &str = "places of pairs are not among those there are";
 
 impl PairBlocks {
+    /// The two places of a pair in the list; `None` behind its last block.
+    pub fn place(&self, index: usize) -> Option<(u32, u32)> {
+        self.blocks.get(index / BLOCK).map(|block| block.get(index % BLOCK))
+    }
+
     /// Replaces the list of pairs.
     ///
     /// # Panics

@@ -14,4 +14,5 @@ mod mixed;
 mod replaced_system;
 mod rows;
 mod snapshot;
+mod snapshot_mutants;
 mod whole_contact_law;

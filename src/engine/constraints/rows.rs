@@ -6,6 +6,7 @@
 
 use glam::DVec2;
 
+use super::cones::{Cone, ConePressure};
 use super::redundant::{self, Share};
 use super::row::{LostTo, Row, RowKind};
 use super::solver::Solver;
@@ -72,6 +73,19 @@ pub struct Rows {
 }
 
 impl Rows {
+    /// Whether all indices are those of rows and of so many bodies, and each row has its answer or none has.
+    pub(crate) fn fits(&self, bodies: usize) -> bool {
+        let Self { rows, loads, answer, joints, given, .. } = self;
+        let pressed =
+            |row: &Row| !matches!(row.cone, Some(Cone { pressure: ConePressure::Row(row), .. }) if row >= rows.len());
+        rows.iter().all(|row| pressed(row) && row.sides.iter().flatten().all(|side| side.body < bodies))
+            && loads.iter().all(|load| load.body < bodies)
+            && (answer.is_empty() || answer.len() == rows.len())
+            && answer.iter().all(|force| force.is_finite())
+            && *joints <= rows.len()
+            && given.iter().all(|row| *row < rows.len())
+    }
+
     /// Forgets all rows.
     pub fn clear(&mut self) {
         self.rows.clear();

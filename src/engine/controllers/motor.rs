@@ -11,7 +11,7 @@ use super::output::{self, Output};
 use crate::constraints::{Row, RowKind, Rows};
 use crate::joints::bounded::Bounded;
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::{Blow, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, State, SteadySpring, TickAppExt};
 use crate::world::Bodies;
 
@@ -169,7 +169,9 @@ impl Model for MotorRow {
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
-        (self.held, self.output.values) = recall(bytes)?;
+        let (held, values): (Bounded, _) = recall(bytes)?;
+        demand(self.held.has_parameters_of(&held), "the speed and bound of a motor")?;
+        (self.held, self.output.values) = (held, values);
         Ok(())
     }
 }

@@ -11,7 +11,7 @@ use serde::Serialize;
 
 use crate::scene::{Arity, SceneAppExt};
 use crate::tick::energy::EnergyLedger;
-use crate::tick::snapshot::{Memory, UnfitSnapshot, Unsaved};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, Unsaved, demand};
 use crate::tick::{State, add_looker, read_forces_at_ends};
 use crate::world::Bodies;
 
@@ -144,6 +144,7 @@ impl Expectations {
 
     /// Goes on from what [`Expectations::save`] gave.
     pub(crate) fn load(&mut self, saved: &[Option<Vec<u8>>]) -> Result<(), UnfitSnapshot> {
+        demand(self.watches.len() == saved.len(), "the expectations")?;
         for ((_, watch), bytes) in self.watches.iter_mut().zip(saved) {
             bytes.as_ref().map_or(Ok(()), |bytes| watch.load(bytes))?;
         }

@@ -94,6 +94,21 @@ pub(super) struct Control {
 }
 
 impl Control {
+    /// Whether another one, from a file, gives steps the same lengths.
+    pub fn paces_as(&self, saved: &Self) -> bool {
+        self.allowance == saved.allowance
+    }
+
+    /// Whether its numbers are lengths, and those of so many bodies.
+    pub fn fits(&self, bodies: usize) -> bool {
+        let Self { distance, speed, origin, next, measures, allowed, jump, part, .. } = self;
+        let positive = |number: f64| number >= 0.0;
+        [*distance, *speed, *allowed, *jump, *part].into_iter().all(positive)
+            && next.is_none_or(|next| next > 0.0)
+            && measures.iter().all(|measure| positive(*measure))
+            && origin.len() <= bodies
+    }
+
     pub fn new(allowance: Allowance) -> Self {
         Self {
             allowance,

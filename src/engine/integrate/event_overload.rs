@@ -41,6 +41,11 @@ pub(super) struct EventOverload {
 }
 
 impl EventOverload {
+    /// Whether another one, from a file, admits as many events.
+    pub fn is_as_patient_as(&self, saved: &Self) -> bool {
+        self.patience == saved.patience && saved.left <= LONGEST && saved.next <= LONGEST && saved.next > 0
+    }
+
     /// An overload control that admits `times` as many events in a tick.
     pub fn patient(times: u32) -> Self {
         Self { following: false, left: 0, next: SHORTEST, calm: 0, credit: times * MOST_EVENTS, patience: times }

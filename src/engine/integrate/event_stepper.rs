@@ -9,6 +9,9 @@
 use glam::DVec2;
 
 mod inner_looks;
+mod saved;
+
+use saved::Remembered;
 
 use super::control::{Allowance, Control, MOST_STEPS};
 use super::event_free_ticks::EventFreeTicks;
@@ -20,8 +23,8 @@ use super::step_bounds::{longest_among_many, longest_under_loads, rounding_of_ti
 use super::steps::{Divided, OneStep, Start};
 use crate::tick::Flow;
 use crate::tick::Integrator;
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::{EvaluationMode, Indicator, Tick, WorldFlow};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
+use crate::tick::{EvaluationMode, Indicator, State, Tick, WorldFlow};
 use serde::{Deserialize, Serialize};
 
 /// If steps follow their error, a tick is a frame of the film. It may have this factor more events than other ticks.
@@ -444,7 +447,8 @@ impl EventStepper {
         let mut now = Vec::new();
         flow.read(&mut now);
         let accounts = flow.indices_of_accounts().start;
-        let same = made.shown.as_ref().is_some_and(|shown| shown.state.get(..accounts) == now.get(..accounts));
+        let whole = |shown: &&Shown| shown.state.len() == now.len();
+        let same = made.shown.as_ref().filter(whole).is_some_and(|shown| shown.state[..accounts] == now[..accounts]);
         if same && !fresh {
             return Some(made);
         }
@@ -475,21 +479,6 @@ fn add(state: &[f64], rest: &[f64], change: &[f64], sum: &mut Vec<f64>) {
     sum.extend(state.iter().zip(rest).zip(change).map(|((state, rest), change)| state + (change + rest)));
 }
 
-/// The memory of a method with steps from tick to tick.
-#[derive(Serialize, Deserialize)]
-struct Remembered {
-    state: Vec<f64>,
-    rest: Vec<f64>,
-    under_way: Option<Made>,
-    steps: u64,
-    looked: f64,
-    work: Work,
-    overload: EventOverload,
-    control: Option<Control>,
-    whole: Option<(bool, f64, Option<u64>)>,
-    method: Option<Vec<u8>>,
-}
-
 impl Integrator for EventStepper {
     fn save(&self) -> Memory {
         let method = match self.method.save() {
@@ -517,12 +506,18 @@ impl Integrator for EventStepper {
         if control.is_some() != self.control.is_some() || whole.is_some() != self.whole.is_some() {
             return Err(UnfitSnapshot("the integrator was another one".to_owned()));
         }
+        let paces = self.control.as_ref().zip(control.as_ref()).is_none_or(|(own, saved)| own.paces_as(saved));
+        demand(paces && self.overload.is_as_patient_as(&overload), "the lengths of steps")?;
         if let (Some(own), Some(saved)) = (&mut self.whole, whole) {
             own.recall(saved);
         }
         (self.state, self.rest, self.under_way, self.steps, self.looked) = (state, rest, under_way, steps, looked);
         (self.work, self.overload, self.control) = (work, overload, control);
         method.map_or(Ok(()), |bytes| self.method.load(&bytes))
+    }
+
+    fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
+        self.demand_fit(state)
     }
 
     fn mode(&self) -> EvaluationMode {

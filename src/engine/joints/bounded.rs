@@ -48,6 +48,11 @@ pub struct Bounded {
 }
 
 impl Bounded {
+    /// Whether another one, from a file, has the same speed and bound.
+    pub fn has_parameters_of(&self, saved: &Self) -> bool {
+        (self.speed, self.limit) == (saved.speed, saved.limit) && saved.torque.is_finite()
+    }
+
     /// Holds a speed in rad/s or m/s. The torque is at most `limit` in N m, or the force in N.
     pub fn new(speed: f64, limit: f64) -> Self {
         Self { speed, limit, mode: Mode::Holds, torque: 0.0, farthest: 0.0, stands: false, tries: false }

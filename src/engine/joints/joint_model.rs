@@ -14,7 +14,7 @@ use super::soft::Soft;
 use crate::constraints::{RowKind as Holds, Rows};
 use crate::forces::link::{DAMPING, Partner};
 use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneError};
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::{
     BlowAtJoint, Energies, Events, ForceOn, ForcePart, LoadErrors, Loss, Model, State, SteadySpring, TickAppExt,
 };
@@ -405,7 +405,10 @@ impl Model for Joint {
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let power: Option<f64>;
-        (self.reaction, self.parts, power) = recall(bytes)?;
+        let (reaction, parts): (_, JointParts);
+        (reaction, parts, power) = recall(bytes)?;
+        demand(self.parts.has_parameters_of(&parts), "the limits of a joint")?;
+        (self.reaction, self.parts) = (reaction, parts);
         if let (Some(soft), Some(power)) = (&mut self.soft, power) {
             soft.power = power;
         }

@@ -79,6 +79,11 @@ impl Press {
 }
 
 impl Limit {
+    /// Whether another one, from a file, lies where this one does.
+    pub(super) fn has_parameters_of(&self, saved: &Self) -> bool {
+        (self.bounds, self.restitution) == (saved.bounds, saved.restitution) && saved.force.is_finite()
+    }
+
     /// Limits in rad or m; an absent limit is infinite.
     pub fn new(bounds: [f64; 2], restitution: f64) -> Self {
         Self {

@@ -71,6 +71,19 @@ pub struct JointParts {
 }
 
 impl JointParts {
+    /// Whether others, from a file, have the same limits, friction and strength.
+    pub(super) fn has_parameters_of(&self, saved: &Self) -> bool {
+        let limit = match (&self.limit, &saved.limit) {
+            (Some(own), Some(saved)) => own.has_parameters_of(saved),
+            (own, saved) => own.is_none() && saved.is_none(),
+        };
+        let friction = match (&self.friction, &saved.friction) {
+            (Some(own), Some(saved)) => own.has_parameters_of(saved),
+            (own, saved) => own.is_none() && saved.is_none(),
+        };
+        limit && friction && self.break_force == saved.break_force && saved.rows.iter().all(|row| *row <= 1)
+    }
+
     pub(super) fn new(asked: &Asked) -> Self {
         Self {
             limit: asked.limits.map(|limits| Limit::new(limits, asked.restitution)),

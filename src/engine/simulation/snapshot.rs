@@ -228,7 +228,7 @@ impl Simulation {
         let world = &mut self.world;
         open(world);
         let mut present = world.resource_mut::<State>();
-        present.load(&state)?;
+        present.load(&state, of.ticks)?;
         present.evaluation.count = of.evaluations;
         kept::load(world, &kept)?;
         world.insert_resource(Notes(notes));

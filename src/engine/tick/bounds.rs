@@ -71,6 +71,16 @@ pub struct Bounds {
 }
 
 impl Bounds {
+    /// Whether all lists are those of so many bodies.
+    pub(crate) fn fits(&self, bodies: usize) -> bool {
+        let Self { margin, low, high, position, angle, .. } = self;
+        let whole = |len: usize| len == 0 || len == bodies;
+        margin.is_finite()
+            && *margin >= 0.0
+            && low.len() == high.len()
+            && [low.len(), position.len(), angle.len()].into_iter().all(whole)
+    }
+
     /// Renews the boxes if a body has moved by half the margin since the last renewal.
     pub(crate) fn update(&mut self, bodies: &mut Bodies, evaluation: &Evaluation) {
         // Sleepers change nothing. Their waking does not count either, or else it would affect the times at which lists

@@ -1,7 +1,7 @@
 //! The interface of an integration method to the tick.
 
 use super::snapshot::{Memory, UnfitSnapshot};
-use super::{EvaluationMode, Tick};
+use super::{EvaluationMode, State, Tick};
 
 /// A method that advances the state by one tick.
 pub trait Integrator: Send + Sync + 'static {
@@ -29,6 +29,15 @@ pub trait Integrator: Send + Sync + 'static {
     /// # Errors
     /// If the bytes are not its own.
     fn load(&mut self, _: &[u8]) -> Result<(), UnfitSnapshot> {
+        Ok(())
+    }
+
+    /// Whether its memory fits the state of a snapshot, after both were loaded: see
+    /// [`Model::fits`](super::Model::fits).
+    ///
+    /// # Errors
+    /// If it does not, with the name of the part.
+    fn fits(&self, _: &State) -> Result<(), UnfitSnapshot> {
         Ok(())
     }
 }

@@ -55,6 +55,7 @@ pub mod pairs;
 mod progress;
 mod registered;
 mod roles;
+mod saved;
 pub mod snapshot;
 mod stabilisation;
 pub mod stability;

@@ -231,6 +231,15 @@ pub trait Model: Any + Send + Sync {
         Ok(())
     }
 
+    /// Whether its memory fits the state of a snapshot, after both were loaded. A file may hold any indices, lengths and
+    /// numbers, so a model checks those that it trusts. Default: it trusts none.
+    ///
+    /// # Errors
+    /// If they do not fit, with the name of the part: see [`demand`](super::snapshot::demand).
+    fn fits(&self, _: &State) -> Result<(), UnfitSnapshot> {
+        Ok(())
+    }
+
     /// A part of it that [`State::model`] also finds. Default: none.
     fn inner(&self) -> Option<&dyn Any> {
         None

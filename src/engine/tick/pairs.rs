@@ -168,6 +168,27 @@ pub struct CandidatePairs {
 }
 
 impl CandidatePairs {
+    /// Whether all of them are pairs of these bodies, and the lists belong together.
+    pub(crate) fn fits(&self, bodies: &Bodies) -> bool {
+        let (atoms, surfaces) = (bodies.atom_count() as u32, bodies.walls.len() + bodies.hulls.len());
+        let probes = bodies.atom_count() + 2 * bodies.walls.len();
+        let corners = |pair: &SurfacePair| match pair.surface(bodies) {
+            Surface::Wall(_) => usize::MAX,
+            Surface::Hull(hull) => bodies.hulls[hull].hull.corners().len(),
+        };
+        let is_surface = |pair: &SurfacePair| {
+            (pair.surface as usize) < surfaces
+                && (pair.probe as usize) < probes
+                && (pair.kept == 0 || (pair.kept as usize - 1) / 2 < corners(pair))
+        };
+        self.atoms.iter().all(|pair| pair.a < atoms && pair.b < atoms && pair.a != pair.b)
+            && self.surfaces.iter().all(is_surface)
+            && self.group_ends[0] <= self.group_ends[1]
+            && self.group_ends[1] <= self.atoms.len()
+            && self.atoms_before.len() == self.atoms.len()
+            && self.surfaces_before.len() == self.surfaces.len()
+    }
+
     /// Places of walls, or of pieces of lines, and of the atoms near them.
     pub fn near_walls(&self, bodies: &Bodies) -> impl Iterator<Item = (usize, usize)> {
         self.surfaces.iter().filter_map(|pair| match pair.surface(bodies) {

@@ -80,6 +80,17 @@ impl fmt::Display for UnfitSnapshot {
 
 impl std::error::Error for UnfitSnapshot {}
 
+/// Demands that a part of a snapshot fits the run that reads it.
+///
+/// # Errors
+/// If it does not, with the name of the part and the remedy.
+pub fn demand(fits: bool, part: &str) -> Result<(), UnfitSnapshot> {
+    if fits {
+        return Ok(());
+    }
+    Err(UnfitSnapshot(format!("{part} do not fit this run. Write the snapshot again with this program and this scene")))
+}
+
 /// The parts of a saved state.
 #[derive(Serialize, Deserialize)]
 struct Saved {
@@ -105,11 +116,23 @@ impl State {
         bytes(Memory::of(&saved))
     }
 
-    /// Goes on from bytes of [`State::save`], in a run of the same scene. The world must be open; components follow.
-    pub(crate) fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
+    /// Goes on from bytes of [`State::save`], in a run of the same scene. The world must be open; components follow. If
+    /// the bytes do not fit, the state is as before. `ticks` are those of the run that was saved.
+    pub(crate) fn load(&mut self, bytes: &[u8], ticks: u64) -> Result<(), UnfitSnapshot> {
+        let (before, own) = (self.save(), self.clock.ticks);
+        let loaded = self.take_up(bytes, ticks);
+        if let (Err(_), Ok(before)) = (&loaded, before) {
+            self.take_up(&before, own)?;
+        }
+        loaded
+    }
+
+    fn take_up(&mut self, bytes: &[u8], ticks: u64) -> Result<(), UnfitSnapshot> {
         let Saved { state, method, models } = recall(bytes)?;
         let state: Self = recall(&state)?;
         self.demand_same_bodies(&state)?;
+        demand(state.clock.ticks == ticks, "the ticks of the clock")?;
+        self.demand_fit(&state)?;
         if models.len() != self.models.len() {
             return Err(UnfitSnapshot(format!("it has {} models, this run {}", models.len(), self.models.len())));
         }
@@ -122,12 +145,16 @@ impl State {
             method.0.load(bytes)?;
         }
         self.take_over(state);
-        Ok(())
+        for model in &self.models {
+            model.fits(self).map_err(|UnfitSnapshot(why)| UnfitSnapshot(format!("{}: {why}", model.name())))?;
+        }
+        self.progress.method.as_ref().map_or(Ok(()), |method| method.0.fits(self))
     }
 
     fn demand_same_bodies(&self, other: &Self) -> Result<(), UnfitSnapshot> {
         let (own, others) = (&self.bodies, &other.bodies);
-        let same = own.entity == others.entity && own.key.iter().eq(others.key.iter()) && own.walls == others.walls;
+        let same =
+            own.entity == others.entity && Memory::of(&own.key) == Memory::of(&others.key) && own.walls == others.walls;
         let accounts = self.ledger.accounts.len() == other.ledger.accounts.len();
         if same && accounts {
             Ok(())

@@ -53,6 +53,19 @@ pub(crate) struct Flights {
 }
 
 impl Flights {
+    /// Whether all flights are those of so many bodies.
+    pub(super) fn fits(&self, bodies: usize) -> bool {
+        let Self { starts, since, bound, newly_bound, ticks, .. } = self;
+        let listed = |list: &[u32]| list.iter().all(|body| (*body as usize) < bodies);
+        let begun = since.iter().all(|since| *since == BOUND || since <= ticks);
+        let bound_ones = since.iter().enumerate().filter(|(_, since)| **since == BOUND).map(|(body, _)| body as u32);
+        (starts.is_empty() && since.is_empty() && bound.is_empty() || starts.len() == bodies && since.len() == bodies)
+            && begun
+            && bound_ones.eq(bound.iter().copied())
+            && listed(newly_bound)
+            && *ticks < BOUND - 1
+    }
+
     /// Whether some bodies fly.
     #[inline]
     pub fn some(&self) -> bool {

@@ -207,6 +207,11 @@ impl Materials {
         own.chain(self.overrides.values().filter_map(|pair| pair.rebound))
     }
 
+    /// Whether there is a material of this index.
+    pub(crate) fn has(&self, index: MaterialIndex) -> bool {
+        (index.0 as usize) < self.by_index.len()
+    }
+
     /// Whether any pair may have friction.
     pub fn any_friction(&self) -> bool {
         let own = self.by_index.iter().map(|material| material.friction_static);

@@ -22,6 +22,7 @@ pub mod motion;
 mod name;
 pub mod packed;
 mod roster;
+mod saved;
 pub mod sections;
 pub mod spawn;
 pub mod wall;

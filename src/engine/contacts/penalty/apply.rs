@@ -36,7 +36,7 @@ use serde::{Deserialize, Serialize};
 /// History of all candidate pairs, beside the lists of [`CandidatePairs`].
 #[derive(Resource, Debug, Serialize, Deserialize)]
 pub struct PenaltyContacts {
-    version: u64,
+    pub(super) version: u64,
     /// The generation of the bodies at which the lists were made.
     generation: u64,
     #[serde(skip)]
@@ -49,7 +49,7 @@ pub struct PenaltyContacts {
     /// One for each probe near a surface.
     pub surfaces: ContactList,
     pub(super) records: Records,
-    meetings: Meetings,
+    pub(super) meetings: Meetings,
     pub(super) rest: Rest,
     pub(super) schedule: SearchSchedule,
     pub(super) sleep: Sleep,

@@ -3,6 +3,8 @@
 //!
 //! Modes are bits, a byte for eight contacts, which serve as masks directly.
 
+mod saved;
+
 use std::ops::{Deref, DerefMut, Range};
 
 use super::contact::Contact;

@@ -119,7 +119,7 @@ pub(super) fn cross(
     let atoms = contacts.atoms.len();
     let told = std::mem::take(&mut contacts.told);
     let mut passed: Vec<(usize, [bool; 2])> = Vec::new();
-    for &(index, what) in fired.iter().map(|index| &told[*index]) {
+    for &(index, what) in fired.iter().filter_map(|index| told.get(*index)) {
         if let What::Border(second) = what {
             let index = index as usize - atoms;
             let known = passed.last_mut().filter(|(other, _)| *other == index);

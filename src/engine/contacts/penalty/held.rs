@@ -33,6 +33,16 @@ impl std::fmt::Debug for Held {
 }
 
 impl Held {
+    /// Whether each has its row, and all contacts and bodies are among so many.
+    pub fn fits(&self, rows: usize, contacts: usize, bodies: usize) -> bool {
+        let one = |geometry: &PairGeometry| (geometry.pair.index as usize) < contacts && geometry.pair.b.body < bodies;
+        (self.contacts.is_empty() || self.first.checked_add(self.contacts.len()).is_some_and(|end| end <= rows))
+            && self
+                .contacts
+                .iter()
+                .all(|(geometry, _)| one(geometry) && geometry.pair.other_body().is_none_or(|body| body < bodies))
+    }
+
     pub fn is_empty(&self) -> bool {
         self.contacts.is_empty()
     }

@@ -39,6 +39,20 @@ const NEAR_MISS: f64 = 1e-6;
 const NOISE: f64 = 16.0 * f64::EPSILON;
 
 impl Meetings {
+    /// Whether they are those of so many pairs and bodies.
+    pub fn fits(&self, pairs: usize, bodies: usize) -> bool {
+        let Self { pairs: own, blocks, indices, first } = self;
+        if blocks.is_empty() {
+            return own.is_empty() && indices.is_empty();
+        }
+        own.len() == pairs
+            && blocks.len() == pairs.div_ceil(BLOCK)
+            && indices.iter().all(|index| (*index as usize) < pairs)
+            && first.len() == bodies + 1
+            && first.is_sorted()
+            && first.last().is_none_or(|end| *end as usize <= indices.len())
+    }
+
     /// Finds the pairs that an evaluation has to include, and fills in the records of their atoms. The others are
     /// postponed in the list. `bound` are the bodies that were bound since the last call. If no body flies, it does
     /// nothing and returns false.

@@ -35,6 +35,7 @@ mod remembered;
 mod rest;
 pub mod rolling;
 mod rolling_stages;
+mod saved;
 mod search_schedule;
 mod settling;
 mod standing;

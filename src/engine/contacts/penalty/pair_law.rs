@@ -98,6 +98,31 @@ pub struct LawTable {
 }
 
 impl LawTable {
+    /// Whether each law is the one that follows from its two sides, and each has its place.
+    pub(super) fn fits<N: NormalForce>(&self, materials: &Materials, settings: &Penalty) -> bool {
+        let Self { laws, rows, indices, last } = self;
+        let side = |(stiffness, material)| PairSide { stiffness: f64::from_bits(stiffness), material };
+        let known = |(_, material): (u64, MaterialIndex)| materials.has(material);
+        let own = |(&(a, b), &index): (&Key, &u32)| {
+            let (saved, row) = (laws.get(index as usize), rows.get(index as usize));
+            known(a) && known(b) && {
+                let law = pair_law::<N>(side(a), side(b), materials, settings);
+                saved == Some(&law) && row == Some(&law.row())
+            }
+        };
+        let mut places: Vec<u32> = indices.values().copied().collect();
+        places.sort_unstable();
+        places.into_iter().eq(0..laws.len() as u32)
+            && rows.len() == laws.len()
+            && indices.iter().all(own)
+            && last.is_none_or(|(key, index)| indices.get(&key) == Some(&index))
+    }
+
+    /// The number of laws.
+    pub(super) fn len(&self) -> usize {
+        self.laws.len()
+    }
+
     /// The law at `place`.
     #[inline]
     pub fn get(&self, index: u32) -> &PairLaw {

@@ -11,10 +11,10 @@ use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
 use super::{
-    Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, search_schedule,
+    Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, saved, search_schedule,
     standing, watched,
 };
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::touch::ContactPoint;
 use crate::tick::{
     Dependence, Energies, EvaluationMode, Events, Foreseen, Holder, Model, Notes, Objection, State, SteadySpring,
@@ -70,9 +70,20 @@ impl<N: NormalForce> Model for Contacts<N> {
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         let PenaltyState { contacts, rolling } = recall(bytes)?;
+        let same =
+            |own: &RollingContacts, saved: &RollingContacts| (own.friction, own.ratio) == (saved.friction, saved.ratio);
+        let rolls = match (&self.own.rolling, &rolling) {
+            (Some(own), Some(saved)) => same(own, saved),
+            (own, saved) => own.is_none() && saved.is_none(),
+        };
+        demand(rolls, "the laws of rolling contacts")?;
         self.own.rolling = rolling;
         self.own.contacts.take_over(contacts);
         Ok(())
+    }
+
+    fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
+        saved::demand_fit::<N>(&self.own, state)
     }
 
     fn contact_law(&self) -> Option<&'static str> {

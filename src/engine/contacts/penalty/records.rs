@@ -39,6 +39,15 @@ pub(super) struct Records {
 }
 
 impl Records {
+    /// Whether the records are those of so many atoms, and pairs find theirs among them.
+    pub fn fits(&self, atoms: usize, contacts: &ContactList, lent: &[Record]) -> bool {
+        let listed = if self.list.is_empty() { lent.len() } else { self.list.len() };
+        let count = if self.sparse { self.needed.len() } else { atoms };
+        self.needed.iter().all(|atom| (*atom as usize) < atoms)
+            && self.needed.is_sorted_by(|a, b| a < b)
+            && (listed == count || contacts.is_empty() && listed == 0)
+    }
+
     /// After an evaluation: lends them to the bodies until the next one, if all were needed. It requires that no other
     /// code changes bodies between the step and that evaluation, because such changes would be missed.
     pub fn lend(&mut self, bodies: &mut Bodies) {

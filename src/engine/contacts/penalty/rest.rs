@@ -46,6 +46,13 @@ pub(super) struct Rest {
 }
 
 impl Rest {
+    /// Whether the bodies at rest are among so many.
+    pub fn fits(&self, bodies: usize) -> bool {
+        let Self { resting, still, .. } = self;
+        resting.iter().all(|one| one.body < bodies && one.position.is_finite() && one.angle.is_finite())
+            && (still.is_empty() || still.len() == bodies)
+    }
+
     /// Whether `body` is at rest.
     #[inline]
     pub fn has(&self, body: usize) -> bool {

@@ -28,7 +28,7 @@ pub struct RollingContacts {
     pub friction: f64,
     /// Stiffness at the rim over the normal stiffness.
     pub ratio: f64,
-    version: u64,
+    pub(super) version: u64,
     /// One for each pair of atoms.
     pub atoms: Vec<Slider>,
     /// One for each probe near a surface.

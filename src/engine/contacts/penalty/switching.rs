@@ -164,7 +164,7 @@ impl View<'_> {
         self.stop_together();
         self.note_springs();
         for &index in fired {
-            let (pair, what) = self.contacts.told[index];
+            let Some((pair, what)) = self.told(index) else { continue };
             if matches!(what, What::Lower | What::Upper) {
                 self.contacts.released.push(pair);
             }
@@ -190,7 +190,7 @@ impl View<'_> {
         let mut stopped = std::mem::take(&mut self.contacts.stopped);
         stopped.clear();
         for &index in fired {
-            let (pair, what) = self.contacts.told[index];
+            let Some((pair, what)) = self.told(index) else { continue };
             if !matches!(what, What::Stop | What::RollingStop) {
                 continue;
             }
@@ -212,10 +212,17 @@ impl View<'_> {
         (self.contacts.held, self.contacts.stopped) = (held, stopped);
     }
 
+    /// The contact of an indicator, and its change. `None` if it is gone.
+    fn told(&self, index: usize) -> Option<(u32, What)> {
+        self.contacts.told.get(index).copied().filter(|told| (told.0 as usize) < self.len())
+    }
+
     /// Contacts beside one that stopped stop with it, if they slide without a spring and have no velocity left. Rounding decides
     /// which of them the event names.
     fn stop_together(&mut self) {
         let mut stopped = std::mem::take(&mut self.contacts.stopped);
+        // A list from before may name contacts that are gone.
+        stopped.retain(|&index| (index as usize) < self.len());
         let named = stopped.len();
         for &index in &stopped {
             self.contact(index as usize).0.tangential.grip = Grip::Hold;
@@ -275,7 +282,7 @@ impl View<'_> {
         };
         let touched: Vec<usize> = fired
             .iter()
-            .map(|&index| self.contacts.told[index])
+            .filter_map(|&index| self.told(index))
             .filter(|told| matches!(told.1, What::Touch))
             .map(|told| told.0 as usize)
             .collect();

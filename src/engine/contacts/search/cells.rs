@@ -30,7 +30,7 @@ const CELLS_PER_ATOM: f64 = 4.0;
 const WASTE: f64 = 16.0;
 
 /// An atom or a hull as the search sees it: a circle.
-#[derive(Clone, Copy, Debug, Default, Serialize, Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize, Deserialize)]
 pub(super) struct Entry {
     pub center: DVec2,
     /// Radius and half the margin.
@@ -49,6 +49,16 @@ pub(super) struct Sorted {
 }
 
 impl Sorted {
+    /// Whether all entries are of these bodies, and each cell has its entries.
+    pub fn fits(&self, bodies: &Bodies) -> bool {
+        let Self { all, large, cells } = self;
+        let own = |entry: &Entry| {
+            let (atom, body) = (entry.atom as usize, entry.body as usize);
+            atom < bodies.atom_count() && body < bodies.len() && entry.center.is_finite() && entry.reach.is_finite()
+        };
+        all.iter().chain(large).chain(&cells.entries).all(own) && *cells == Cells::of(all)
+    }
+
     /// All atoms, each with half of the margin around it.
     pub fn of(bodies: &Bodies, margin: f64) -> Self {
         Self::among(bodies, margin, 0..bodies.atom_count())
@@ -243,7 +253,7 @@ fn are_near(a: &Entry, b: &Entry) -> bool {
 }
 
 /// Cells along one axis.
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Axis {
     low: f64,
     /// Fine cells per metre.
@@ -302,7 +312,7 @@ impl Axis {
     }
 }
 
-#[derive(Debug, Serialize, Deserialize)]
+#[derive(Debug, PartialEq, Serialize, Deserialize)]
 struct Cells {
     columns: Axis,
     rows: Axis,

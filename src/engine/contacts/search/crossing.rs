@@ -18,7 +18,7 @@ use jostle_shapes::{Feature, Hull, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
 use crate::contacts::{Probe, Surface, SurfacePair};
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::{Dependence, Energies, FailureKind, Model, State, SteadySpring};
 use crate::world::{Bodies, PackedHull};
 
@@ -79,6 +79,17 @@ impl Model for Crossings {
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         *self = recall(bytes)?;
         Ok(())
+    }
+
+    fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
+        let Self { before, before_round, near, until, version, seen, .. } = self;
+        let (bodies, pairs) = (state.bodies(), state.pairs.as_ref());
+        let whole = |len: usize, of: usize| len == 0 || len == of;
+        let listed = |watched: &Watched| pairs.is_some_and(|pairs| pairs.surfaces.contains(&watched.pair));
+        let known = pairs.is_none_or(|pairs| pairs.version != *version) || near.iter().all(listed);
+        let atoms = bodies.atom_count();
+        let lengths = near.len() == until.len() && whole(before.len(), atoms) && whole(before_round.len(), atoms);
+        demand(known && lengths && whole(seen.len(), bodies.len()), "the probes watched near hulls and lines")
     }
 
     fn dependence(&self) -> Dependence {

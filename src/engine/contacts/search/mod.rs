@@ -28,7 +28,7 @@ use self::identity::Identities;
 use self::still::Still;
 use crate::tick::bounds::{self, Bounds};
 use crate::tick::pairs::{AtomPair, CandidatePairs, NEW, Search, SurfacePair};
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::{
     AfterLoad, Dependence, Energies, Evaluation, EvaluationMode, FailureKind, Model, State, SteadySpring, TickAppExt,
 };
@@ -89,6 +89,19 @@ impl Model for PairSearch {
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
         *self = recall(bytes)?;
         Ok(())
+    }
+
+    /// Lists of the present bodies are those of these bodies. The others are of no use.
+    fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
+        let bodies = state.bodies();
+        if state.bounds.as_ref().is_none_or(|bounds| bounds.version == 0) {
+            return Ok(());
+        }
+        let hulls = bodies.hulls.iter().map(|hull| hull.first_atom);
+        let same = self.generation == bodies.generation && self.identities == Identities::of(bodies);
+        let counted = self.wall_count == bodies.walls.len() && self.atom_count as usize == bodies.atom_count();
+        demand(same && counted && hulls.eq(self.first_atoms.iter().copied()), "the lists of the search for pairs")?;
+        demand(self.still.as_ref().is_none_or(|still| still.fits(bodies)), "the lists of pairs of bodies at rest")
     }
 
     fn dependence(&self) -> Dependence {

@@ -17,7 +17,7 @@ mod tests;
 
 use super::{OneStep, Start};
 use crate::tick::Flow;
-use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use coefficients::{ALL_STAGES, DENSE, ERROR_5, POLYNOMIALS, RESULT, RESULT_3, STAGES, STEP, Stage, Sum};
 use serde::{Deserialize, Serialize};
 
@@ -80,7 +80,11 @@ impl OneStep for Dop853 {
     }
 
     fn load(&mut self, bytes: &[u8]) -> Result<(), UnfitSnapshot> {
-        *self = recall(bytes)?;
+        let saved: Self = recall(bytes)?;
+        let (rates, dimension) = (saved.rates.len(), saved.state.len());
+        let dense = saved.dense.is_empty() || saved.dense.len() == dimension;
+        demand(rates == ALL_STAGES * dimension && dense && saved.length.is_finite(), "the stages of the method")?;
+        *self = saved;
         Ok(())
     }
 

@@ -1,0 +1,80 @@
+//! Whether bodies from a file are those of the run that reads them.
+
+use crate::tick::snapshot::{Memory, UnfitSnapshot, demand};
+
+use super::packed::{Bodies, Moved};
+
+impl Bodies {
+    /// All that follows from the scene alone, as bytes: it stays the same in a run.
+    fn parameters(&self) -> [Memory; 3] {
+        [
+            Memory::of(&(
+                (&self.dynamic, &self.moves, &self.collides, &self.prescribed.motions),
+                (&self.mass, &self.inertia, &self.inverse_mass, &self.inverse_inertia, &self.field),
+            )),
+            Memory::of(&(
+                (&self.extent, &self.first_atom, &self.atom_offset, &self.atom_radius, &self.atom_surface),
+                (&self.surfaces, &self.atom_body, self.lone_discs, self.all_dynamic, self.smallest_radius),
+            )),
+            Memory::of(&(&self.apart, &self.hulls, &self.atom_hull, &self.walls, &self.lines, &self.belts)),
+        ]
+    }
+
+    /// Demands that bodies from a file have the parameters of these, lists of their lengths, and finite motions.
+    pub(crate) fn demand_fit(&self, saved: &Self) -> Result<(), UnfitSnapshot> {
+        let names = ["masses or prescribed motions of bodies", "atoms or surfaces of bodies", "hulls, walls or belts"];
+        for ((own, other), name) in self.parameters().into_iter().zip(saved.parameters()).zip(names) {
+            demand(own == other, name)?;
+        }
+        let places = |entity| self.index(entity) == saved.index(entity);
+        demand(self.entity.iter().all(|entity| places(*entity)), "the places of bodies")?;
+        let (count, atoms) = (self.len(), self.atom_count());
+        let whole = [
+            saved.position.len(),
+            saved.position_residual.len(),
+            saved.angle.len(),
+            saved.angle_residual.len(),
+            saved.velocity.len(),
+            saved.spin.len(),
+            saved.force.len(),
+            saved.torque.len(),
+        ];
+        let or_none = [
+            saved.estimated_velocity.len(),
+            saved.estimated_spin.len(),
+            saved.drift.len(),
+            saved.turn.len(),
+            saved.jointed.len(),
+            saved.turned.len(),
+        ];
+        let lengths = whole.into_iter().all(|length| length == count)
+            && or_none.into_iter().all(|length| length == 0 || length == count)
+            && saved.turned.len() == self.turned.len()
+            && saved.atom_position.len() == self.atom_position.len()
+            && (saved.records.is_empty() || saved.records.len() == atoms)
+            && saved.estimated_velocity.len() == saved.estimated_spin.len()
+            && !(saved.estimating && saved.estimated_velocity.is_empty())
+            && (matches!(saved.moved, Moved::For(_)) || saved.drift.len() == count && saved.turn.len() == count);
+        demand(lengths, "the numbers of places, velocities or forces")?;
+        let blocks = count.div_ceil(8);
+        let awake = saved.awake.is_sorted_by(|a, b| a < b) && saved.awake.iter().all(|at| (*at as usize) < blocks);
+        let sleep = saved.asleep.is_empty() && saved.awake.is_empty() || saved.asleep.len() == blocks;
+        demand(awake && sleep, "the lists of sleeping bodies")?;
+        demand(saved.flights.fits(count), "the flights of bodies")?;
+        demand(saved.is_finite(), "places, velocities, forces or times that are no finite numbers")
+    }
+
+    fn is_finite(&self) -> bool {
+        let vectors = [&self.position, &self.position_residual, &self.velocity, &self.drift, &self.force];
+        let numbers = [&self.angle, &self.angle_residual, &self.spin, &self.turn, &self.torque];
+        let estimates = self.estimated_velocity.iter().all(|vector| vector.is_finite())
+            && self.estimated_spin.iter().all(|number| number.is_finite());
+        let steps = !matches!(self.moved, Moved::For(time) if !time.is_finite());
+        vectors.into_iter().flatten().chain(&self.atom_position).all(|vector| vector.is_finite())
+            && numbers.into_iter().flatten().all(|number| number.is_finite())
+            && estimates
+            && steps
+            && self.owed.is_none_or(f64::is_finite)
+            && (self.path + self.advanced + self.prescribed.time + self.prescribed.middle).is_finite()
+    }
+}
