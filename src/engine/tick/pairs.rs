@@ -71,6 +71,19 @@ impl SurfacePair {
         Self { surface, probe, kept: 0 }
     }
 
+    /// Whether there are such a surface, such a probe and such a feature.
+    pub(crate) fn is_among(self, bodies: &Bodies) -> bool {
+        let (probe, atoms, walls) = (self.probe as usize, bodies.atom_count(), bodies.walls.len());
+        match self.surface(bodies) {
+            Surface::Wall(_) => probe < atoms && self.kept == 0,
+            Surface::Hull(hull) => {
+                let corners = bodies.hulls.get(hull).map_or(0, |packed| packed.hull.corners().len());
+                let known = self.kept.checked_sub(1).is_none_or(|kept| (kept as usize) / 2 < corners);
+                corners > 0 && known && probe < atoms + 2 * walls
+            }
+        }
+    }
+
     /// The feature of the hull that counts in a step with stages. Default: none, and the nearest counts.
     #[inline]
     pub fn kept(&self) -> Option<Feature> {
@@ -170,19 +183,9 @@ pub struct CandidatePairs {
 impl CandidatePairs {
     /// Whether all of them are pairs of these bodies, and the lists belong together.
     pub(crate) fn fits(&self, bodies: &Bodies) -> bool {
-        let (atoms, surfaces) = (bodies.atom_count() as u32, bodies.walls.len() + bodies.hulls.len());
-        let probes = bodies.atom_count() + 2 * bodies.walls.len();
-        let corners = |pair: &SurfacePair| match pair.surface(bodies) {
-            Surface::Wall(_) => usize::MAX,
-            Surface::Hull(hull) => bodies.hulls[hull].hull.corners().len(),
-        };
-        let is_surface = |pair: &SurfacePair| {
-            (pair.surface as usize) < surfaces
-                && (pair.probe as usize) < probes
-                && (pair.kept == 0 || (pair.kept as usize - 1) / 2 < corners(pair))
-        };
+        let atoms = bodies.atom_count() as u32;
         self.atoms.iter().all(|pair| pair.a < atoms && pair.b < atoms && pair.a != pair.b)
-            && self.surfaces.iter().all(is_surface)
+            && self.surfaces.iter().all(|pair| pair.is_among(bodies))
             && self.group_ends[0] <= self.group_ends[1]
             && self.group_ends[1] <= self.atoms.len()
             && self.atoms_before.len() == self.atoms.len()

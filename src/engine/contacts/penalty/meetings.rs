@@ -48,7 +48,7 @@ impl Meetings {
         own.len() == pairs
             && blocks.len() == pairs.div_ceil(BLOCK)
             && indices.iter().all(|index| (*index as usize) < pairs)
-            && first.len() == bodies + 1
+            && first.len() == bodies + 2
             && first.is_sorted()
             && first.last().is_none_or(|end| *end as usize <= indices.len())
     }

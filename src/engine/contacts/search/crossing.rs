@@ -82,11 +82,10 @@ impl Model for Crossings {
     }
 
     fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
-        let Self { before, before_round, near, until, version, seen, .. } = self;
-        let (bodies, pairs) = (state.bodies(), state.pairs.as_ref());
+        let Self { before, before_round, near, until, seen, .. } = self;
+        let bodies = state.bodies();
         let whole = |len: usize, of: usize| len == 0 || len == of;
-        let listed = |watched: &Watched| pairs.is_some_and(|pairs| pairs.surfaces.contains(&watched.pair));
-        let known = pairs.is_none_or(|pairs| pairs.version != *version) || near.iter().all(listed);
+        let known = near.iter().all(|watched| watched.pair.is_among(bodies));
         let atoms = bodies.atom_count();
         let lengths = near.len() == until.len() && whole(before.len(), atoms) && whole(before_round.len(), atoms);
         demand(known && lengths && whole(seen.len(), bodies.len()), "the probes watched near hulls and lines")
