@@ -90,14 +90,23 @@ const PIECES: [&str; 30] = [
 ];
 
 /// Chance with what mutations ask for.
-struct Chance(ChaCha8Rng);
+pub struct Chance(ChaCha8Rng);
 
 impl Chance {
-    fn below(&mut self, end: usize) -> usize {
+    /// The chance of mutant `number` of a seed.
+    pub fn of(seed: u64, number: u64) -> Self {
+        let mut random = ChaCha8Rng::seed_from_u64(seed);
+        random.set_stream(number);
+        Self(random)
+    }
+
+    /// A whole number below `end`.
+    pub fn below(&mut self, end: usize) -> usize {
         (self.0.next_u64() % end.max(1) as u64) as usize
     }
 
-    fn pick<T: Copy>(&mut self, from: &[T]) -> T {
+    /// One of these.
+    pub fn pick<T: Copy>(&mut self, from: &[T]) -> T {
         from[self.below(from.len())]
     }
 
@@ -117,9 +126,7 @@ impl Chance {
 
 /// Mutant `number` of a seed: a scene with one to five changes.
 pub fn mutant(corpus: &Corpus, seed: u64, number: u64) -> String {
-    let mut random = ChaCha8Rng::seed_from_u64(seed);
-    random.set_stream(number);
-    let mut chance = Chance(random);
+    let mut chance = Chance::of(seed, number);
     let mut scene = chance.seed(corpus).clone();
     let changes = 1 + chance.below(5).min(chance.below(5));
     for _ in 0..changes {

@@ -9,9 +9,6 @@ use std::time::{Duration, Instant};
 
 use crate::worker::BROKEN;
 
-/// Processor time that one scene may take, in seconds. Not time on the clock: machines are busy. Under a tolerance the engine itself ends a
-/// tick after ten million steps, which take half a minute.
-pub const SECONDS: f64 = 60.0;
 /// A child that says nothing for so long is stuck even if it computes nothing.
 const SILENCE: Duration = Duration::from_secs(120);
 /// Memory that a child may ask for, in KiB.
@@ -51,11 +48,12 @@ pub struct Report {
     pub slowest: (f64, u64),
 }
 
-/// Runs this program as a child with `arguments` and watches it until it ends, or stops it.
+/// Runs this program as a child with `arguments` and watches it until it ends, or stops it after `patience` seconds of
+/// processor time for one mutant. Not time on the clock: machines are busy.
 ///
 /// # Errors
 /// When no child can be started.
-pub fn watch(arguments: &[String], scratch: &Path) -> std::io::Result<Report> {
+pub fn watch(arguments: &[String], patience: f64, scratch: &Path) -> std::io::Result<Report> {
     let program = std::env::current_exe()?;
     let limit = format!("ulimit -v {MEMORY} && ulimit -c 0 && exec \"$0\" \"$@\"");
     let mut child = Command::new("sh")
@@ -99,7 +97,7 @@ pub fn watch(arguments: &[String], scratch: &Path) -> std::io::Result<Report> {
             }
             Err(std::sync::mpsc::RecvTimeoutError::Timeout) => {
                 let spent = processor_time(child.id()).map_or(0.0, |now| now - cpu_at_mark);
-                if spent > SECONDS || heard.elapsed() > SILENCE {
+                if spent > patience || heard.elapsed() > SILENCE {
                     // The child may be gone already.
                     let _ = child.kill();
                     break true;
@@ -112,7 +110,7 @@ pub fn watch(arguments: &[String], scratch: &Path) -> std::io::Result<Report> {
     let errors = errors.join().unwrap_or_default();
     let (number, phase) = present;
     let broke = if stopped {
-        Some(Break { kind: "hang", phase, place: format!("more than {SECONDS} s of processor time") })
+        Some(Break { kind: "hang", phase, place: format!("more than {patience} s of processor time") })
     } else {
         judge(status, &errors, phase)
     };

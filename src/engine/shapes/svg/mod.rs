@@ -42,6 +42,8 @@ pub(crate) struct Outlines {
 pub(crate) const MOST_POINTS: usize = 2000;
 /// Chords of a curve from which the height of a drawing is known.
 const FINE: usize = 256;
+/// A width below this share of a drawing's places is rounding: some units in the last place of numbers of 64 bits.
+const NO_WIDTH: f64 = 16.0 * f64::EPSILON;
 /// The default tolerance, as a share of the height.
 const TOLERANCE: f64 = 1e-3;
 /// Points that are nearer than this share of the tolerance are one.
@@ -57,9 +59,15 @@ impl Outlines {
     /// A file without outlines, or with outlines of which no shape can be made.
     pub fn read(bytes: &[u8], id: Option<&str>, size: Size, tolerance: Option<f64>) -> Result<Self, Wrong> {
         let field = if id.is_some() { "id" } else { "file" };
-        let Drawing { contours, left_out, .. } =
+        let Drawing { mut contours, mut left_out, .. } =
             Drawing::read(bytes, id).map_err(|(message, help)| (message, help, "file"))?;
-        let rough: Vec<DVec2> = contours.iter().flat_map(|contour| chained(contour, |_| FINE, 0.0)).collect();
+        let fine = |contour: &Contour| chained(contour, |_| FINE, 0.0);
+        let all = contours.len();
+        contours.retain(|contour| has_area(&fine(contour)));
+        if contours.len() < all {
+            left_out.push("line without area".to_owned());
+        }
+        let rough: Vec<DVec2> = contours.iter().flat_map(fine).collect();
         let low = rough.iter().copied().fold(DVec2::INFINITY, DVec2::min);
         let high = rough.iter().copied().fold(DVec2::NEG_INFINITY, DVec2::max);
         let drawn = high.y - low.y;
@@ -118,6 +126,15 @@ fn chained(contour: &Contour, chords: impl Fn(&curve::Curve) -> usize, apart: f6
         points.pop();
     }
     points
+}
+
+/// Whether a polygon has an area beyond the rounding of its places.
+fn has_area(ring: &[DVec2]) -> bool {
+    let around: f64 = ring.windows(2).map(|two| two[0].distance(two[1])).sum();
+    let places = ring.iter().fold(0.0, |farthest: f64, at| farthest.max(at.abs().max_element()));
+    let rounding = NO_WIDTH * around * places.max(around);
+    // Places beyond all numbers are for the reader to refuse.
+    ring.len() > 2 && (twice_area(ring).abs() > rounding || !rounding.is_finite())
 }
 
 /// Twice the area of a polygon; negative if it runs clockwise.
@@ -190,6 +207,14 @@ mod tests {
     }
 
     #[test]
+    fn lines_without_area_are_left_out() {
+        for line in ["M9 9 L9 12", "M0.1 0.1 L0.3 0.3 L0.7 0.7", "M9 9 L10 9 H9 Z"] {
+            let found = read(&format!("<path d=\"M0 0 H4 V3 Z {line}\"/>"), None).unwrap();
+            assert_eq!((found.polygons.len(), found.left_out), (1, vec!["line without area".to_owned()]), "{line}");
+        }
+    }
+
+    #[test]
     fn mistakes_are_told() {
         for (body, id, words) in [
             ("<text>L</text>", None, "has no outline, only text"),
@@ -198,6 +223,7 @@ mod tests {
             ("<circle r=\"3\"/><circle r=\"1\"/>", None, "outline 2 lies inside outline 1"),
             ("<circle r=\"3\"/>", Some("rim"), "no element with the id `rim`"),
             ("<path d=\"M0 0 L1 0\"/>", None, "has no outline"),
+            ("<path d=\"M0 0 L0 1\"/><line x1=\"3\"/>", None, "has no outline, only line, line without area"),
             ("<g transform=\"turn(3)\"><circle r=\"3\"/></g>", None, "`transform` means nothing"),
             ("<g>", None, "is no SVG file"),
             (&"<path d=\"M0 0h1v1z\"/>".repeat(1001), None, "more than 2000 lines and curves"),
