@@ -73,7 +73,7 @@ pub struct Rows {
 }
 
 impl Rows {
-    /// Whether all indices are those of rows and of so many bodies, and each row has its answer or none has.
+    /// Whether all indices are those of rows and of so many bodies. Each row has its answer, or none has.
     pub(crate) fn fits(&self, bodies: usize) -> bool {
         let Self { rows, loads, answer, joints, given, .. } = self;
         let pressed =

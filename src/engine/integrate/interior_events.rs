@@ -172,7 +172,7 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
             true => between_rates([a, b], bend, (way, length)),
             false => below_chord([a.value, b.value], bend, way),
         };
-        let inside = after > 0.0 && after < way && least < 0.0;
+        let inside = after > 0.0 && after < way && least < -a.rounding.max(b.rounding);
         inside.then_some(from.share + after).filter(|share| *share > from.share && *share < to.share)
     };
     from.indicators.iter().zip(&to.indicators).filter_map(meet).reduce(f64::min)

@@ -7,17 +7,33 @@ use super::contact::Contact;
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use crate::constraints::islands::IslandLink;
-use crate::contacts::geometry::{ContactSides, SideA};
+use crate::contacts::geometry::{ContactSides, PairGeometry, SideA};
 use crate::world::Bodies;
 
 /// Units in the last place by which a place and the overlap that follows from it may err.
 const UNITS: f64 = 4.0;
+
+impl PairGeometry {
+    /// The relative acceleration in m/s2 by a force that is all rounding of places. Zero for sides that overlap by more, or lie
+    /// farther apart.
+    pub(super) fn unknown_acceleration(&self, law: &PairLaw, mobility: f64, bodies: &Bodies) -> f64 {
+        let rounding = self.pair.rounding(bodies);
+        if self.overlap.abs() <= rounding { mobility * law.stiffness * rounding } else { 0.0 }
+    }
+}
 
 impl ContactSides {
     /// Normal force in newtons that rounding of places makes.
     pub(super) fn noise(&self, law: &PairLaw, bodies: &Bodies) -> f64 {
         let place = bodies.position[self.b.body] + self.b.arm;
         UNITS * f64::EPSILON * place.abs().max_element() * law.stiffness
+    }
+
+    /// The error in metres of the overlap by rounding of places. Sides that a joint leads along each other meet by it, wherever they
+    /// are. So the parts of a place count, which may cancel.
+    pub(super) fn rounding(&self, bodies: &Bodies) -> f64 {
+        let place = bodies.position[self.b.body].abs() + self.b.arm.abs();
+        UNITS * f64::EPSILON * place.max_element()
     }
 
     /// `force` acts on side B, the opposite on side A, where they touch.

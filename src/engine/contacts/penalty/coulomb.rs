@@ -20,6 +20,9 @@ pub(super) const ROUNDING: f64 = 1e-12;
 /// most this share.
 const BEYOND: f64 = 1e-9;
 
+/// A swing of less than this share of its spring's limit is rounding: forces of dependent rows leave 1e-10.
+const STILL: f64 = 1e-9;
+
 /// Phase of a spring with a Coulomb limit.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 pub enum Grip {
@@ -165,6 +168,16 @@ impl Slider {
     pub(super) fn undo_slide(&mut self, before: Option<Self>) {
         if let Some(before) = before.filter(|before| self.grip == Grip::Slide && before.grip != Grip::Slide) {
             *self = before;
+        }
+    }
+
+    /// Lets a sticking spring hold whose swing is rounding, below a normal force that comes to be held. `speed`: the velocity in m/s at
+    /// the middle of the swing. A long step would make that swing grow.
+    pub(super) fn stop_still_swing(&mut self, law: &SliderLaw, (normal_force, speed): (f64, f64), mobility: f64) {
+        let limit = law.friction_static * normal_force / law.stiffness;
+        let swing = self.elongation.hypot(speed / (law.stiffness * mobility).sqrt());
+        if self.grip == Grip::Stick && law.acts() && swing <= STILL * limit {
+            (self.grip, self.held) = (Grip::Hold, self.force(law));
         }
     }
 

@@ -34,6 +34,8 @@ pub(super) struct Pressure {
     pub swings: f64,
     /// The acceleration in m/s2 by the force alone.
     acceleration: f64,
+    /// That by a force which is all rounding. Zero for a force beyond it.
+    unknown_acceleration: f64,
 }
 
 impl Pressure {
@@ -48,25 +50,29 @@ impl Pressure {
         let force = contact.normal_force;
         if contact.mode == Mode::Hold {
             let (rate, second_rate) = (UNKNOWN, UNKNOWN);
-            return Self { force, noise: 0.0, rate, second_rate, swings: 0.0, acceleration: 0.0 };
+            let (noise, acceleration, unknown_acceleration) = (0.0, 0.0, 0.0);
+            return Self { force, noise, rate, second_rate, swings: 0.0, acceleration, unknown_acceleration };
         }
         let approach = geometry.approach(bodies);
         let (stiffness, damping) = N::response(law, approach.mobility);
         let damped = damping * approach.mobility;
+        let noise = geometry.pair.noise(law, bodies);
         Self {
             force,
-            noise: geometry.pair.noise(law, bodies),
+            noise,
             rate: N::force_rate(law, contact.mode, approach, change),
             second_rate: N::force_second_rate(law, contact.mode, approach, change),
             swings: stiffness * approach.mobility + damped * damped,
             acceleration: approach.mobility * force.abs(),
+            unknown_acceleration: geometry.unknown_acceleration(law, approach.mobility, bodies),
         }
     }
 
     /// Whether the sides neither part nor approach by the forces on them. Rows that hold other contacts of a body hold this one
-    /// still at an end of its band. The sign of the velocity that rounding leaves ends no mode.
+    /// still at an end of its band. Joints hold sides that just meet. The sign of the velocity that rounding leaves ends no
+    /// mode.
     fn rests(&self, change: Change) -> bool {
-        change.parting.abs() <= HELD * self.acceleration
+        change.parting.abs() <= (HELD * self.acceleration).max(self.unknown_acceleration)
     }
 }
 
@@ -82,7 +88,9 @@ impl View<'_> {
             if contact.mode == Mode::Open {
                 what.push((index as u32, What::Touch));
                 let bend = Bend::AtMost(geometry.bend(bodies));
-                told.push(Indicator::new(-geometry.overlap, geometry.parting(), bend));
+                // Sides that a joint leads along each other meet by rounding alone.
+                let rounding = geometry.pair.rounding(bodies);
+                told.push(Indicator { rounding, ..Indicator::new(-geometry.overlap, geometry.parting(), bend) });
                 continue;
             }
             let change = geometry.change(law, bodies);
@@ -103,12 +111,18 @@ impl View<'_> {
                 say(What::Upper, known(greatest - contact.normal_force, UNKNOWN));
             } else {
                 let (value, is_overlap) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
-                say(What::Part, known(value, if is_overlap { -geometry.parting() } else { pressure.rate }));
+                let (slope, rounding) = if is_overlap {
+                    (-geometry.parting(), geometry.pair.rounding(bodies))
+                } else {
+                    (pressure.rate, pressure.noise)
+                };
+                say(What::Part, Indicator { rounding, ..known(value, slope) });
                 let loading = N::smooth_force(law, Mode::Loading, geometry.overlap, geometry.approach(bodies));
                 if let Some((value, slope)) = N::stays(law, contact.mode, (geometry.parting(), change.parting), loading)
                 {
                     let rounding = if N::SET_VALUED && pressure.rests(change) {
-                        ROUNDING * (geometry.speeds(bodies) + pressure.swings.sqrt() * contact.overlap)
+                        let overlap = contact.overlap.max(geometry.pair.rounding(bodies));
+                        ROUNDING * (geometry.speeds(bodies) + pressure.swings.sqrt() * overlap)
                     } else {
                         0.0
                     };

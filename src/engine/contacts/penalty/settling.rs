@@ -14,9 +14,10 @@ use crate::world::Bodies;
 /// curvatures cannot both stay.
 fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<Mode> {
     let rate = geometry.parting_rate(law.shares(), bodies);
-    let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
-    let size = pushed + geometry.inertial(law.shares(), bodies).0.abs();
-    (rate.abs() > HOLDS * size).then_some(if rate > 0.0 { Mode::Unloading } else { Mode::Loading })
+    let mobility = geometry.approach(bodies).mobility;
+    let size = mobility * law.stiffness * geometry.overlap + geometry.inertial(law.shares(), bodies).0.abs();
+    let rounding = geometry.unknown_acceleration(law, mobility, bodies);
+    (rate.abs() > (HOLDS * size).max(rounding)).then_some(if rate > 0.0 { Mode::Unloading } else { Mode::Loading })
 }
 
 impl View<'_> {

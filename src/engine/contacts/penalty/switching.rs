@@ -174,7 +174,19 @@ impl View<'_> {
             let base = Base::at_touch::<N>(law, &geometry, bodies);
             contact.switch::<N>(law, what, &geometry, base);
             contact.come_loose(law, &geometry);
+            let (stands, normal_force) =
+                (matches!(what, What::Turn) && contact.mode == Mode::Hold, contact.normal_force);
+            if stands && !law.exact {
+                let (sliding, mobility) =
+                    (geometry.sliding(law.shares()), geometry.mobility_along(law.shares(), bodies));
+                contact.tangential.stop_still_swing(&law.tangential(), (normal_force, sliding), mobility);
+            }
             match (roller, what) {
+                (Some((slider, rolling_law)), What::Turn) if stands => {
+                    let (turning, mobility) = (geometry.turning(), geometry.mobility_of_turning(bodies));
+                    rolling_stages::come_loose((&mut *slider, rolling_law), &contact, &geometry);
+                    slider.stop_still_swing(&rolling_law, (normal_force, turning), mobility);
+                }
                 (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &geometry, Some(base)),
                 (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &geometry),
                 (None, _) => {}

@@ -42,7 +42,7 @@ pub(crate) struct Outlines {
 pub(crate) const MOST_POINTS: usize = 2000;
 /// Chords of a curve from which the height of a drawing is known.
 const FINE: usize = 256;
-/// A width below this share of a drawing's places is rounding: some units in the last place of numbers of 64 bits.
+/// A width below this share of a drawing's places is rounding: some units in their last place.
 const NO_WIDTH: f64 = 16.0 * f64::EPSILON;
 /// The default tolerance, as a share of the height.
 const TOLERANCE: f64 = 1e-3;
@@ -133,7 +133,7 @@ fn has_area(ring: &[DVec2]) -> bool {
     let around: f64 = ring.windows(2).map(|two| two[0].distance(two[1])).sum();
     let places = ring.iter().fold(0.0, |farthest: f64, at| farthest.max(at.abs().max_element()));
     let rounding = NO_WIDTH * around * places.max(around);
-    // Places beyond all numbers are for the reader to refuse.
+    // The reader refuses infinite places elsewhere.
     ring.len() > 2 && (twice_area(ring).abs() > rounding || !rounding.is_finite())
 }
 
