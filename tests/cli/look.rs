@@ -20,7 +20,11 @@ fn wrong_themes_and_layers_are_named_before_anything_runs() {
     let folder = Folder::new("wrong_look").with("a.ron", FALL).with("mine.ron", "(background: \"white\")");
     folder.jostle("render a.ron --theme nite").code(2).says("`nite` is no theme; themes are paper, night, print");
     folder.jostle("render a.ron --theme lost.ron").code(2).says("there is no file `lost.ron`; themes are");
-    folder.jostle("render a.ron --theme mine.ron").code(2).says("`mine.ron` is no theme: 1:15").says("#rrggbb");
+    folder
+        .jostle("render a.ron --theme mine.ron")
+        .code(2)
+        .says("`mine.ron` is no theme: line 1, column 15: ")
+        .says("#rrggbb");
     folder.jostle("render a.ron --layers trails,speeds").code(2).says("there is no layer `speeds`").says("velocities");
     assert_eq!(folder.names(), ["a.ron", "mine.ron"]);
 }

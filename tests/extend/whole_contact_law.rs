@@ -18,7 +18,7 @@ use jostle::constraints::{Row, RowKind, RowSide, Rows};
 use jostle::contacts::{ContactLaw, ContactPoint, LawTouch, add_law};
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::tick::snapshot::{Memory, UnfitSnapshot, recall};
+use jostle::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use jostle::tick::{
     Bend, Blow, BlowAtJoint, Departure, Dependence, Energies, EvaluationMode, Events, ForceOn, ForcePart, Indicator,
     Loss, Model, Objection, Rhythm, State, SteadySpring, TimeScales,
@@ -267,6 +267,11 @@ impl Model for Whole {
         self.called("load");
         self.turned = recall(bytes)?;
         Ok(())
+    }
+
+    fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
+        self.called("fits");
+        demand(state.bodies().len() == 1, "the cart of the whole law")
     }
 
     fn inner(&self) -> Option<&dyn Any> {

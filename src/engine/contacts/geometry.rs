@@ -455,7 +455,7 @@ impl PairGeometry {
     }
 
     /// The greatest possible relative acceleration in m/s2 of both sides. The distance of two centres bends downwards
-    /// by no more than that, because all other terms bend it upwards. That from a straight side bends by what approaches along the
+    /// by no more than that, because all other terms bend it upwards. That from a straight side bends by what lies along the
     /// normal.
     pub fn bend(&self, bodies: &Bodies) -> f64 {
         let turning = |end: &ContactEnd| {
@@ -470,8 +470,7 @@ impl PairGeometry {
         };
         let apart = acceleration(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, acceleration);
         let swings = self.flat.map_or(0.0, |(spin, _)| (spin * self.velocity.dot(self.pair.normal.perp())).abs());
-        let approaching = || (-apart.dot(self.pair.normal)).max(0.0);
-        let most = if self.is_straight(bodies, turning) { approaching() } else { apart.length() };
+        let most = if self.is_straight(bodies, turning) { apart.dot(self.pair.normal).abs() } else { apart.length() };
         most + swings + self.gliding().abs()
     }
 }

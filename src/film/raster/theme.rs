@@ -89,7 +89,10 @@ impl Theme {
     /// The error names the mistake, with line and column if they are known. A theme has exactly the colours of
     /// [`COLOR_NAMES`], in their order, so that scenes can count on them.
     pub fn read(text: &str) -> Result<Theme, String> {
-        let theme: Theme = ron::from_str(text).map_err(|error| error.to_string())?;
+        let theme: Theme = ron::from_str(text).map_err(|error| {
+            let begin = error.span.start;
+            format!("line {}, column {}: {}", begin.line, begin.col, error.code)
+        })?;
         if !theme.color_names().eq(COLOR_NAMES) {
             return Err(format!("its palette must have these colours in this order: {}", COLOR_NAMES.join(", ")));
         }

@@ -36,7 +36,7 @@ pub fn mark(number: u64, word: &str) {
 /// Works through `count` mutants from number `from` on.
 pub fn batch(kind: &mut dyn Kind, seed: u64, from: u64, count: u64, scratch: &Path) {
     for number in from..from + count {
-        // What a kind does before it reads counts for the mutant too.
+        // The work of making a mutant counts too.
         mark(number, "reading");
         let mutant = kind.mutant(seed, number);
         kind.attempt(&mutant, number, scratch);

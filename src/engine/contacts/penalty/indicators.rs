@@ -114,7 +114,7 @@ impl View<'_> {
                 let (slope, rounding) = if is_overlap {
                     (-geometry.parting(), geometry.pair.rounding(bodies))
                 } else {
-                    (pressure.rate, pressure.noise)
+                    (pressure.rate, 0.0)
                 };
                 say(What::Part, Indicator { rounding, ..known(value, slope) });
                 let loading = N::smooth_force(law, Mode::Loading, geometry.overlap, geometry.approach(bodies));
