@@ -6,7 +6,7 @@ use super::state::State;
 impl State {
     /// Demands that all indices and lengths of another state are those of this run, and that its clock goes on.
     pub(super) fn demand_fit(&self, saved: &Self) -> Result<(), UnfitSnapshot> {
-        self.bodies.demand_fit(&saved.bodies)?;
+        self.bodies.demand_fit(&saved.bodies).or_else(|part| demand(false, part))?;
         let (bodies, walls) = (self.bodies.len(), self.bodies.walls.len());
         let clock = &saved.clock;
         let times = [saved.evaluation.time, saved.span.begin, saved.span.end];

@@ -1,27 +1,40 @@
 //! Whether bodies from a file are those of the run that reads them.
 
-use crate::tick::snapshot::{Memory, UnfitSnapshot, demand};
+use serde::Serialize;
 
 use super::packed::{Bodies, Moved};
 
+/// Numbers as bytes, to the last bit. NaN equals itself there.
+fn bits(value: &impl Serialize) -> Option<Vec<u8>> {
+    postcard::to_stdvec(value).ok()
+}
+
+/// The name of a part of a file, unless it fits.
+fn demand(fits: bool, part: &'static str) -> Result<(), &'static str> {
+    if fits { Ok(()) } else { Err(part) }
+}
+
 impl Bodies {
     /// All that follows from the scene alone, as bytes: it stays the same in a run.
-    fn parameters(&self) -> [Memory; 3] {
+    fn parameters(&self) -> [Option<Vec<u8>>; 3] {
         [
-            Memory::of(&(
+            bits(&(
                 (&self.dynamic, &self.moves, &self.collides, &self.prescribed.motions),
                 (&self.mass, &self.inertia, &self.inverse_mass, &self.inverse_inertia, &self.field),
             )),
-            Memory::of(&(
+            bits(&(
                 (&self.extent, &self.first_atom, &self.atom_offset, &self.atom_radius, &self.atom_surface),
                 (&self.surfaces, &self.atom_body, self.lone_discs, self.all_dynamic, self.smallest_radius),
             )),
-            Memory::of(&(&self.apart, &self.hulls, &self.atom_hull, &self.walls, &self.lines, &self.belts)),
+            bits(&(&self.apart, &self.hulls, &self.atom_hull, &self.walls, &self.lines, &self.belts)),
         ]
     }
 
     /// Demands that bodies from a file have the parameters of these, lists of their lengths, and finite motions.
-    pub(crate) fn demand_fit(&self, saved: &Self) -> Result<(), UnfitSnapshot> {
+    ///
+    /// # Errors
+    /// The name of the part that does not fit.
+    pub(crate) fn demand_fit(&self, saved: &Self) -> Result<(), &'static str> {
         let names = ["masses or prescribed motions of bodies", "atoms or surfaces of bodies", "hulls, walls or belts"];
         for ((own, other), name) in self.parameters().into_iter().zip(saved.parameters()).zip(names) {
             demand(own == other, name)?;
