@@ -128,13 +128,15 @@ fn chained(contour: &Contour, chords: impl Fn(&curve::Curve) -> usize, apart: f6
     points
 }
 
-/// Whether a polygon has an area beyond the rounding of its places.
+/// Whether the points of a contour lie on no line, beyond the rounding of their places.
 fn has_area(ring: &[DVec2]) -> bool {
-    let around: f64 = ring.windows(2).map(|two| two[0].distance(two[1])).sum();
+    let Some(&first) = ring.first() else { return false };
+    let farther = |a: &DVec2, b: &DVec2| first.distance(*a).total_cmp(&first.distance(*b));
+    let along = ring.iter().copied().max_by(farther).map_or(DVec2::ZERO, |far| far - first);
     let places = ring.iter().fold(0.0, |farthest: f64, at| farthest.max(at.abs().max_element()));
-    let rounding = NO_WIDTH * around * places.max(around);
+    let rounding = NO_WIDTH * places * along.length();
     // The reader refuses infinite places elsewhere.
-    ring.len() > 2 && (twice_area(ring).abs() > rounding || !rounding.is_finite())
+    !rounding.is_finite() || ring.iter().any(|at| along.perp_dot(*at - first).abs() > rounding)
 }
 
 /// Twice the area of a polygon; negative if it runs clockwise.
