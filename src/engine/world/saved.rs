@@ -9,8 +9,8 @@ fn bits(value: &impl Serialize) -> Option<Vec<u8>> {
     postcard::to_stdvec(value).ok()
 }
 
-/// The name of a part of a file, unless it fits.
-fn demand(fits: bool, part: &'static str) -> Result<(), &'static str> {
+/// The name of a part of a file, unless it fits. The tick makes a message of it.
+fn require(fits: bool, part: &'static str) -> Result<(), &'static str> {
     if fits { Ok(()) } else { Err(part) }
 }
 
@@ -37,10 +37,10 @@ impl Bodies {
     pub(crate) fn demand_fit(&self, saved: &Self) -> Result<(), &'static str> {
         let names = ["masses or prescribed motions of bodies", "atoms or surfaces of bodies", "hulls, walls or belts"];
         for ((own, other), name) in self.parameters().into_iter().zip(saved.parameters()).zip(names) {
-            demand(own == other, name)?;
+            require(own == other, name)?;
         }
         let places = |entity| self.index(entity) == saved.index(entity);
-        demand(self.entity.iter().all(|entity| places(*entity)), "the places of bodies")?;
+        require(self.entity.iter().all(|entity| places(*entity)), "the places of bodies")?;
         let (count, atoms) = (self.len(), self.atom_count());
         let whole = [
             saved.position.len(),
@@ -68,13 +68,13 @@ impl Bodies {
             && saved.estimated_velocity.len() == saved.estimated_spin.len()
             && !(saved.estimating && saved.estimated_velocity.is_empty())
             && (matches!(saved.moved, Moved::For(_)) || saved.drift.len() == count && saved.turn.len() == count);
-        demand(lengths, "the numbers of places, velocities or forces")?;
+        require(lengths, "the numbers of places, velocities or forces")?;
         let blocks = count.div_ceil(8);
         let awake = saved.awake.is_sorted_by(|a, b| a < b) && saved.awake.iter().all(|at| (*at as usize) < blocks);
         let sleep = saved.asleep.is_empty() && saved.awake.is_empty() || saved.asleep.len() == blocks;
-        demand(awake && sleep, "the lists of sleeping bodies")?;
-        demand(saved.flights.fits(count), "the flights of bodies")?;
-        demand(saved.is_finite(), "places, velocities, forces or times that are no finite numbers")
+        require(awake && sleep, "the lists of sleeping bodies")?;
+        require(saved.flights.fits(count), "the flights of bodies")?;
+        require(saved.is_finite(), "places, velocities, forces or times that are no finite numbers")
     }
 
     fn is_finite(&self) -> bool {

@@ -26,7 +26,7 @@ use kinds::Kind;
 use watch::{Break, watch};
 
 /// Mutants per child: few enough that a child lasts some seconds.
-const BATCH: u64 = 500;
+const BATCH: u64 = 100;
 /// How long a finding is made smaller.
 const MINIMISING: Duration = Duration::from_secs(120);
 /// How many mutants of one kind of finding are stored; the rest is counted.

@@ -44,14 +44,13 @@ fn has(bits: &[u8], body: usize) -> bool {
 impl Still {
     /// Whether all indices are those of these bodies.
     pub fn fits(&self, bodies: &Bodies) -> bool {
-        let (atoms, probes) = (bodies.atom_count() as u32, bodies.atom_count() + 2 * bodies.walls.len());
-        let surfaces = bodies.walls.len() + bodies.hulls.len();
+        let atoms = bodies.atom_count() as u32;
         let Self { sorted, moving, moves, pairs, .. } = self;
         sorted.fits(bodies)
             && moving.iter().all(|body| (*body as usize) < bodies.len())
             && moves.len() == bodies.len().div_ceil(8)
             && pairs.atoms.iter().all(|(pair, group)| pair.a < atoms && pair.b < atoms && *group < 3)
-            && pairs.walls.iter().all(|pair| (pair.surface as usize) < surfaces && (pair.probe as usize) < probes)
+            && pairs.walls.iter().all(|pair| pair.is_among(bodies))
     }
 
     /// The result of the last search, if most bodies sleep.

@@ -91,6 +91,8 @@ impl OneStep for Dop853 {
     fn step(&mut self, flow: &mut dyn Flow, start: Start, length: f64, change: &mut [f64]) {
         let dimension = start.state.len();
         self.length = length;
+        // Polynomials of an earlier step may be those of other numbers.
+        self.dense.clear();
         self.state.resize(dimension, 0.0);
         self.rates.resize(ALL_STAGES * dimension, 0.0);
         self.rates[..dimension].copy_from_slice(start.rates);
