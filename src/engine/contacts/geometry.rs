@@ -11,12 +11,9 @@ use jostle_shapes::{Feature, Hull};
 
 use super::{AtomPair, Probe, Surface, SurfacePair};
 use crate::constraints::islands::IslandLink;
+use crate::tick::{Bend, Turning};
 use crate::world::{Bodies, NearestOnHull, NearestPoint};
 use serde::{Deserialize, Serialize};
-
-/// A spin in rad/s, and its growth in each second, below which a body does not turn. Rows of joints leave 1e-10 of what they hold.
-/// In a step of some seconds it turns an acceleration by a billionth. The touch that this brings is as shallow.
-const STRAIGHT: f64 = 1e-9;
 
 impl SurfacePair {
     /// The overlap of both sides in metres; negative: the gap.
@@ -446,32 +443,35 @@ impl PairGeometry {
         own(self.pair.b.body) - self.pair.other_body().map_or(0.0, own)
     }
 
-    /// Whether the normal and the accelerations of both sides keep their directions. Neither body turns, and the side is that of
-    /// a hull, or of a wall away from its ends.
-    fn is_straight(&self, bodies: &Bodies, turning: impl Fn(&ContactEnd) -> f64) -> bool {
-        let stands = |end: &ContactEnd| bodies.spin[end.body].abs().max(turning(end).abs()) <= STRAIGHT;
-        let flat = self.flat.is_some() || self.distance.is_infinite();
-        flat && stands(&self.pair.b) && self.pair.other_end().is_none_or(stands)
-    }
-
-    /// The greatest possible relative acceleration in m/s2 of both sides. The distance of two centres bends downwards
-    /// by no more than that, because all other terms bend it upwards. That from a straight side bends by what lies along the
-    /// normal.
-    pub fn bend(&self, bodies: &Bodies) -> f64 {
+    /// The greatest possible relative acceleration of both sides. The distance of two centres bends downwards by no more
+    /// than that, because all other terms bend it upwards. That from a straight side bends by what lies along the normal,
+    /// which turns with the side. Straight are sides of hulls, and walls away from their ends.
+    pub fn bend(&self, bodies: &Bodies) -> Bend {
         let turning = |end: &ContactEnd| {
             let free = bodies.torque[end.body] * bodies.inverse_inertia(end.body);
             free + bodies.prescribed.acceleration(end.body).1
         };
         let acceleration = |end: &ContactEnd| {
             let body = end.body;
-            let (led, turning) = (bodies.prescribed.acceleration(body).0, turning(end));
-            bodies.force[body] * bodies.inverse_mass(body) + led + end.arm.perp() * turning
+            bodies.force[body] * bodies.inverse_mass(body)
+                + bodies.prescribed.acceleration(body).0
+                + end.arm.perp() * turning(end)
                 - end.arm * (bodies.spin[body] * bodies.spin[body])
         };
-        let apart = acceleration(&self.pair.b) - self.pair.other_end().map_or(DVec2::ZERO, acceleration);
+        let (b, a) = (&self.pair.b, self.pair.other_end());
+        let apart = acceleration(b) - a.map_or(DVec2::ZERO, acceleration);
         let swings = self.flat.map_or(0.0, |(spin, _)| (spin * self.velocity.dot(self.pair.normal.perp())).abs());
-        let most = if self.is_straight(bodies, turning) { apart.dot(self.pair.normal).abs() } else { apart.length() };
-        most + swings + self.gliding().abs()
+        let turned = swings + self.gliding().abs();
+        if self.flat.is_none() && self.distance.is_finite() {
+            return Bend::AtMost(apart.length() + turned);
+        }
+        let sum = |of: &dyn Fn(&ContactEnd) -> f64| of(b).abs() + a.map_or(0.0, |a| of(a).abs());
+        Bend::Turning(Turning {
+            along: apart.dot(self.pair.normal).abs() + turned,
+            across: apart.dot(self.pair.normal.perp()).abs(),
+            spin: sum(&|end| bodies.spin[end.body]),
+            acceleration: sum(&turning),
+        })
     }
 }
 

@@ -17,7 +17,7 @@
 //! differences. Stages are less exact than the step, so they only suggest moments at which the step is evaluated.
 
 use super::locate::{IndicatorSample, cubic, vanished};
-use crate::tick::{Bend, Indicator};
+use crate::tick::Indicator;
 
 /// Looks into one step.
 const MOST_LOOKS: usize = 24;
@@ -152,13 +152,12 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
     let way = to.share - from.share;
     let meet = |(a, b): (&Indicator, &Indicator)| {
         let known = !(a.slope.is_nan() || b.slope.is_nan());
-        let bend = match (a.bend, b.bend) {
-            (Bend::AtMost(first), Bend::AtMost(second)) => {
-                (first.max(second) + (first - second).abs()) * length * length
-            }
+        let seconds = way * length;
+        let bend = match (a.bend.within(seconds), b.bend.within(seconds)) {
+            (Some(first), Some(second)) => (first.max(second) + (first - second).abs()) * length * length,
             // Steps resolve the swings of springs: their indicators lie above the tangents at both ends.
             _ if known && (a.swings > 0.0 || b.swings > 0.0) => 0.0,
-            _ => return fitted(a, b, way * length).filter(|_| known).map(|at| from.share + at * way),
+            _ => return fitted(a, b, seconds).filter(|_| known).map(|at| from.share + at * way),
         };
         if a.value > 0.0 && (vanished(b) || !known && b.value < 0.0) {
             let several =
@@ -260,6 +259,7 @@ fn dip(course: &[(f64, f64)]) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::tick::Bend;
 
     fn look(indicators: impl Fn(f64) -> Vec<Indicator>) -> (IndicatorSample, IndicatorSample, usize) {
         look_within(1.0, indicators)

@@ -90,6 +90,7 @@ pub(crate) use looks::{add_inner_looker, look_inside, read_forces_at_ends};
 pub use method::{Integrator, Method};
 pub use model::{
     Bend, Departure, Dependence, Energies, Events, ForceOn, ForcePart, Indicator, Loss, Model, Objection, Rhythm,
+    Turning,
 };
 pub use notes::Notes;
 pub use ode::Flow;

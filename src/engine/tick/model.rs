@@ -343,6 +343,8 @@ pub enum Bend {
     /// Its second derivative, per second squared, is not below minus this number. If its rate is unknown, the absolute
     /// value is not above this number.
     AtMost(f64),
+    /// As above, for a distance from a straight side. The bound grows by what lies across the side, as far as bodies turn.
+    Turning(Turning),
     /// No bound is known. The integrator fits the curvature to values and rates at both ends of a step. If the rate is
     /// unknown, it fits the curvature to the values at the stages of the step.
     Fitted,
@@ -362,6 +364,38 @@ impl Indicator {
     /// Whether its course within a step shows in its values at the stages of the step.
     pub fn is_sampled(&self) -> bool {
         self.slope.is_nan()
+    }
+}
+
+impl Bend {
+    /// The bound within the next `seconds`, per second squared; `None` if no bound is known.
+    pub fn within(self, seconds: f64) -> Option<f64> {
+        match self {
+            Self::AtMost(bound) => Some(bound),
+            Self::Turning(turning) => Some(turning.within(seconds)),
+            Self::Fitted => None,
+        }
+    }
+}
+
+/// The acceleration of a place on one body relative to a straight side of another, and how fast both turn.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Turning {
+    /// The greatest acceleration along the normal of the side, in m/s2.
+    pub along: f64,
+    /// The greatest acceleration along the side, in m/s2.
+    pub across: f64,
+    /// The sum of both spins in rad/s.
+    pub spin: f64,
+    /// The sum of both angular accelerations in rad/s2.
+    pub acceleration: f64,
+}
+
+impl Turning {
+    /// The greatest acceleration along the normal within some seconds, in m/s2. Angles bound their own sines.
+    fn within(&self, seconds: f64) -> f64 {
+        let angle = (self.spin + 0.5 * self.acceleration * seconds) * seconds;
+        self.along + self.across * angle.min(1.0)
     }
 }
 

@@ -87,7 +87,7 @@ impl View<'_> {
             let (contact, law, roller) = self.whole(index, &geometry);
             if contact.mode == Mode::Open {
                 what.push((index as u32, What::Touch));
-                let bend = Bend::AtMost(geometry.bend(bodies));
+                let bend = geometry.bend(bodies);
                 // Sides that a joint leads along each other meet by rounding alone.
                 let rounding = geometry.pair.rounding(bodies);
                 told.push(Indicator { rounding, ..Indicator::new(-geometry.overlap, geometry.parting(), bend) });
