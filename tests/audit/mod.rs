@@ -20,6 +20,7 @@ mod letting_go;
 mod lifted_boxes;
 mod messages;
 mod other_kind;
+mod partial_slip;
 mod ran;
 mod reading_cost;
 mod releases;

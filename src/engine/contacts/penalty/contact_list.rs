@@ -146,6 +146,7 @@ impl ContactList {
         history.normal_force[lane] = normal_force;
         history.elongation[lane] = elongation;
         self.law[block][lane] = law;
+        self.only_law = self.only_law.filter(|only| *only == law);
         self.held[block][lane] = held;
         self.phases[block].set(lane, mode, grip);
     }

@@ -29,6 +29,7 @@ mod modes;
 pub mod normal;
 mod one_by_one;
 pub mod pair_law;
+mod partial_slip;
 mod penalty_model;
 mod records;
 mod remembered;

@@ -54,6 +54,13 @@ impl PairLaw {
         Shares { a: self.share_a, b: self.share_b }
     }
 
+    /// The law beside another contact that sticks: see [`super::partial_slip`]. `None`: it is the same.
+    fn in_partial_slip(&self) -> Option<Self> {
+        let drops = self.friction_static > self.friction_dynamic;
+        let slip = self.friction_static / self.tangential_stiffness;
+        drops.then_some(Self { friction_dynamic: self.friction_static, slip, ..*self })
+    }
+
     fn row(&self) -> Record {
         Record([
             self.stiffness,
@@ -92,6 +99,9 @@ pub struct LawTable {
     laws: Vec<PairLaw>,
     /// The same as records.
     rows: Vec<Record>,
+    /// For each law the place of the one in partial slip, which stands behind it, and the other way round. A law without
+    /// such a one has its own place.
+    twins: Vec<u32>,
     indices: BTreeMap<Key, u32>,
     /// The pair asked for last: neighbours are often of one kind.
     last: Option<(Key, u32)>,
@@ -100,27 +110,34 @@ pub struct LawTable {
 impl LawTable {
     /// Whether each law is the one that follows from its two sides, and each has its place.
     pub(super) fn fits<N: NormalForce>(&self, materials: &Materials, settings: &Penalty) -> bool {
-        let Self { laws, rows, indices, last } = self;
         let side = |(stiffness, material)| PairSide { stiffness: f64::from_bits(stiffness), material };
-        let known = |(_, material): (u64, MaterialIndex)| materials.has(material);
-        let own = |(&(a, b), &index): (&Key, &u32)| {
-            let (saved, row) = (laws.get(index as usize), rows.get(index as usize));
-            known(a) && known(b) && {
-                let law = pair_law::<N>(side(a), side(b), materials, settings);
-                saved == Some(&law) && row == Some(&law.row())
-            }
-        };
-        let mut places: Vec<u32> = indices.values().copied().collect();
-        places.sort_unstable();
-        places.into_iter().eq(0..laws.len() as u32)
-            && rows.len() == laws.len()
-            && indices.iter().all(own)
-            && last.is_none_or(|(key, index)| indices.get(&key) == Some(&index))
+        let mut keys: Vec<(u32, Key)> = self.indices.iter().map(|(key, index)| (*index, *key)).collect();
+        keys.sort_unstable_by_key(|(index, _)| *index);
+        if !keys.iter().all(|(_, (a, b))| materials.has(a.1) && materials.has(b.1)) {
+            return false;
+        }
+        let mut own = Self::default();
+        for (_, (a, b)) in keys {
+            own.index::<N>(side(a), side(b), materials, settings);
+        }
+        let same = own.laws == self.laws && own.rows == self.rows && own.twins == self.twins;
+        same && own.indices == self.indices
+            && self.last.is_none_or(|(key, index)| self.indices.get(&key) == Some(&index))
     }
 
     /// The number of laws.
     pub(super) fn len(&self) -> usize {
         self.laws.len()
+    }
+
+    /// Whether some law has one for partial slip.
+    pub(super) fn some_drop(&self) -> bool {
+        self.twins.len() > self.indices.len()
+    }
+
+    /// The place of the law for partial slip that belongs to one for slip, or the other way round.
+    pub(super) fn twin(&self, index: u32) -> u32 {
+        self.twins[index as usize]
     }
 
     /// The law at `place`.
@@ -166,9 +183,11 @@ impl LawTable {
         }
         let index = *self.indices.entry(key).or_insert_with(|| {
             let law = pair_law::<N>(a, b, materials, settings);
-            self.laws.push(law);
-            self.rows.push(law.row());
-            self.laws.len() as u32 - 1
+            let (place, partial) = (self.laws.len() as u32, law.in_partial_slip());
+            self.laws.extend([Some(law), partial].into_iter().flatten());
+            self.rows.extend([Some(law), partial].into_iter().flatten().map(|law| law.row()));
+            self.twins.extend(if partial.is_some() { vec![place + 1, place] } else { vec![place] });
+            place
         });
         self.last = Some((key, index));
         index

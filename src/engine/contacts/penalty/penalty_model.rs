@@ -10,6 +10,7 @@ use super::at_rest::{self, AtRest};
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
+use super::switching::View;
 use super::{
     Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, saved, search_schedule,
     standing, watched,
@@ -143,6 +144,9 @@ impl<N: NormalForce> Model for Contacts<N> {
         } else {
             features::release(pairs);
         }
+        let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
+        let staged = evaluation.mode.is_staged();
+        evaluation.stale |= view.share_cones(staged) && staged;
         let shared = Shared { bodies, rates, ledger, evaluation, rows };
         let own = Own { pairs, contacts, rolling: rolling.as_mut(), forces };
         let changed = choose::<N>(shared, (clock, span), own, known, &mut self.scratch);

@@ -32,7 +32,8 @@ impl View<'_> {
             self.note_springs();
             self.contacts.stopped.clear();
         }
-        let corrected = self.settle_held_friction::<N>()
+        let corrected = self.share_cones(true)
+            || self.settle_held_friction::<N>()
             || self.settle_normals::<N>()
             || self.settle_unheld()
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)

@@ -1,0 +1,119 @@
+//! Partial slip: a contact at its static cone beside another one that still sticks between the same two bodies.
+//!
+//! Rigid bodies with two points of contact slide at both or at none. While one of them sticks, the other one moves no
+//! farther than springs give. So it keeps the static coefficient (Mindlin 1949, "Compliance of elastic bodies in contact").
+//! It takes the dynamic coefficient once none sticks. So the friction of a box ends at `mu_s` times the sum of its normal
+//! forces. The shares of the springs of its corners do not matter.
+//!
+//! An opposite contact may slide: a wheel between two plates rolls on one of them.
+
+use glam::DVec2;
+
+use super::apply::PenaltyContacts;
+use super::coulomb::Grip;
+use super::switching::View;
+use crate::constraints::islands::IslandLink;
+use crate::contacts::CandidatePairs;
+use crate::contacts::geometry::PairGeometry;
+use crate::world::Bodies;
+
+/// The greatest tangent of the angle between the normal of an opposite contact and the line to the other one. That line is the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of
+/// 120 degrees it is at 60 degrees, where a disc cannot roll on one side alone.
+const OPPOSITE: f64 = 0.5;
+
+/// The body of all that does not move.
+const WORLD: usize = usize::MAX;
+
+/// A contact of two bodies.
+struct Link {
+    bodies: (usize, usize),
+    index: usize,
+    /// Its place in metres.
+    place: DVec2,
+    normal: DVec2,
+    grip: Grip,
+}
+
+impl Link {
+    fn of(index: usize, geometry: &PairGeometry, place: DVec2, grip: Grip, bodies: &Bodies) -> Self {
+        let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]).unwrap_or(WORLD);
+        let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
+        Self { bodies: (a.min(b), a.max(b)), index, place, normal: geometry.pair.normal, grip }
+    }
+
+    /// Whether another contact of the same bodies sticks, so that this one cannot slide.
+    fn is_kept_by(&self, other: &Self) -> bool {
+        let way = self.place - other.place;
+        let opposite = OPPOSITE * way.dot(self.normal).abs() >= way.perp_dot(self.normal).abs();
+        matches!(other.grip, Grip::Stick | Grip::Hold) && other.index != self.index && !opposite
+    }
+}
+
+impl PenaltyContacts {
+    /// The touching contacts, atoms first, that may have others between the same bodies. Two discs meet in one point.
+    fn perhaps_several(&self, (bodies, pairs): (&Bodies, &CandidatePairs)) -> Vec<usize> {
+        let alone = |atom: u32| {
+            let body = bodies.atom_body(atom as usize);
+            bodies.moves[body] && bodies.atoms_of(body).len() == 1
+        };
+        let atoms = self.atoms.touching().filter(|index| {
+            let pair = pairs.atoms[*index];
+            !(alone(pair.a) && alone(pair.b))
+        });
+        let surfaces = self.surfaces.touching().map(|index| self.atoms.len() + index);
+        atoms.chain(surfaces).collect()
+    }
+}
+
+impl View<'_> {
+    /// Finds the contacts that slip beside others which stick. Says whether the friction of one that slides has changed.
+    /// `staged`: contacts are evaluated in stages of steps. Else the search for rest lets friction go that holds, for all
+    /// contacts of a body at once.
+    pub(super) fn share_cones(&mut self, staged: bool) -> bool {
+        if !self.contacts.laws.some_drop() {
+            return false;
+        }
+        let mut links = Vec::new();
+        for index in self.contacts.perhaps_several((self.bodies, self.pairs)) {
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (contact, law) = self.contact(index);
+            if law.tangential().acts() {
+                let b = geometry.pair.b.body;
+                let place = bodies.position[b] + geometry.contact_arms(law.shares()).1;
+                links.push(Link::of(index, &geometry, place, contact.tangential.grip, bodies));
+            }
+        }
+        links.sort_unstable_by_key(|link| (link.bodies, link.index));
+        let mut changed = false;
+        for group in links.chunk_by(|one, other| one.bodies == other.bodies) {
+            for link in group {
+                let kept = group.iter().any(|other| link.is_kept_by(other));
+                changed |= self.take_cone(link, kept, staged);
+            }
+        }
+        changed
+    }
+
+    /// Gives a contact the coefficients of partial slip, or of slip. One that sticks takes those of partial slip, and slips
+    /// with them. Says whether a friction has changed.
+    fn take_cone(&mut self, link: &Link, kept: bool, staged: bool) -> bool {
+        let law = self.contact(link.index).0.law;
+        let other = self.contacts.laws.twin(law);
+        let is_partial = other < law;
+        let may_be = match link.grip {
+            Grip::Stick => true,
+            Grip::Hold => staged,
+            Grip::Slip | Grip::Slide => is_partial,
+        };
+        if other == law || is_partial == (kept && may_be) {
+            return false;
+        }
+        self.contact(link.index).0.law = other;
+        let (mut contact, law) = self.contact(link.index);
+        let slides = contact.tangential.grip == Grip::Slide;
+        if slides {
+            contact.tangential.held = contact.tangential.sliding_force(&law.tangential(), contact.normal_force);
+        }
+        slides
+    }
+}
