@@ -28,6 +28,11 @@ const OF_A_TENTH: f64 = 0.9;
 /// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
 /// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
+/// Two runs with events took nearly the same steps if they differ by at most this share of the tolerance. Springs and
+/// events ask for those steps. A step may decide between sticking and slipping, and both runs may decide alike.
+const ALIKE: f64 = 0.01;
+/// Then a run with this share of the fineness is the finer one. Its steps of order eight are less than half as long.
+const OWN_STEPS: f64 = 1e-3;
 /// A predicted error aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
 /// A prediction is confirmed if the result exceeds it by at most this factor, because errors of located events scatter.
@@ -161,13 +166,18 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     // Fineness and difference of the last pair of trials, and the predicted error.
     let mut before: Option<(f64, f64, f64)> = None;
     loop {
-        let fine = trials.run(next, "a finer run", |_| {})?;
+        let mut fine = trials.run(next, "a finer run", |_| {})?;
         let mut apart = coarse.apart(&fine);
         if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
             // The steps of one run are halves of those of the other. Events at the same phase of both have equal
             // errors.
             let other = trials.run(next * OTHER_STEPS, "a run with other steps", |_| {})?;
             apart = apart.max(coarse.apart(&other));
+        }
+        if trials.ladder == Ladder::Allowed && fine.jumped && apart.share <= ALIKE * tolerance && next > climb.finest {
+            next = climb.down_to(next * OWN_STEPS);
+            fine = trials.run(next, "a run with steps of its own", |_| {})?;
+            apart = apart.max(coarse.apart(&fine));
         }
         let difference = apart.share;
         let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
