@@ -163,6 +163,22 @@ fn a_body_that_turns_within_a_frame_passes_twice() {
     }
 }
 
+/// A disc of 1 kg stands `m g/k` deep, and 30 N lift it at once. It parts within 2 ms, before the first frame ends. That touch counts.
+#[test]
+fn a_touch_at_the_start_counts_that_ends_within_the_first_frame() {
+    let text = "Scene(format: 1, clock: (duration: 0.5), gravity: (0, -10), film: (fps: 10),
+        sensors: [Counter(name: \"k\", of: \"b\", touching: \"floor\"), Contacts(of: \"b\")],
+        forces: [Thrust(of: \"b\", force: (0, 30))], materials: {\"m\": (stiffness: 1e6)},
+        walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\")],
+        bodies: [(name: \"b\", at: (0, 0.09999), material: \"m\", atoms: Disc(radius: 0.1, mass: 1))])";
+    for way in WAYS {
+        let mut simulation = load(text, way);
+        simulation.run_to_end().unwrap();
+        let counts = ["k.count", "b.contacts.begun", "b.contacts"].map(|name| value(&mut simulation, name));
+        assert_eq!(counts, [1.0, 1.0, 0.0], "{way:?}");
+    }
+}
+
 /// A wheel that turns uniformly bounds no step by its error. The sine of its angle crosses a value upwards once in each turn.
 #[test]
 fn a_wheel_that_turns_uniformly_is_seen() {

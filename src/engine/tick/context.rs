@@ -231,6 +231,10 @@ impl Tick<'_> {
         self.state.each_with_events(|model, state| model.take_stock(state));
         self.evaluate_stage(self.begin);
         self.settle();
+        let is_start = self.state.clock.ticks == 0;
+        if let Some(touches) = self.state.touches.as_mut().filter(|_| is_start) {
+            touches.begin_all();
+        }
     }
 
     /// Adds all indicators of the state just evaluated to a list.

@@ -111,6 +111,15 @@ impl Touches {
         self.pairs.push((true, body as u32, wall));
     }
 
+    /// The pairs that touch at the start begin to touch, also those that part before the first tick ends.
+    pub(crate) fn begin_all(&mut self) {
+        if self.begun.is_empty() {
+            self.begun.clone_from(&self.pairs);
+            self.begun.sort_unstable();
+            self.begun.dedup();
+        }
+    }
+
     /// Two bodies began to touch at an event inside a tick, given by their places.
     pub fn bodies_begin(&mut self, a: usize, b: usize) {
         self.begun.push((false, a.min(b) as u32, a.max(b) as u32));
