@@ -131,3 +131,39 @@ fn a_run_with_a_body_of_later_is_not_forked() {
     let why = simulation.fork().err().expect("a refusal").to_string();
     assert_eq!(why, "it has other bodies, walls or accounts than this run");
 }
+
+/// Springs that stick are numbers of the state, so their number changes as contacts begin to stick and to slide. A run takes up the
+/// snapshots of its own kind in all such moments.
+#[test]
+fn a_run_whose_springs_come_and_go_takes_up_its_snapshots() {
+    let text = r#"Scene(
+    format: 1,
+    clock: (duration: 0.88),
+    film: (fps: 100.0),
+    gravity: (0.0, -9.81),
+    contacts: Penalty(),
+    materials: { "m": (inelasticity: 0.589, density: 115.9, friction: 0.7566, stiffness: 40550.0) },
+    walls: [
+        (name: "wall0", material: "m", left: (0.8775985594303569, 0.47939625414239756), right: (0.0, 0.0)),
+    ],
+    bodies: [
+        (name: "b0", velocity: (0.0, 0.294), material: "m", atoms: List([(at: (0.0, -0.1167), radius: 0.385), (at: (0.1331, 0.0), radius: 0.1063), (at: (0.0, -0.1022), radius: 0.1075), (at: (0.0, -0.141), radius: 0.1973)]), at: (0.18210026663353457, 0.536831816949461)),
+        (name: "b1", kinematic: (), material: "m", shape: Disc(radius: 0.3378, at: (-0.134, 0.0), collides: false), at: (0.07190177133663084, 1.2496772524580333)),
+        (name: "b2", atoms: Disc(radius: 0.5324), fixed: false, kinematic: (spin: 1.801, path: [(time: 0.1459, velocity: (0.7231, -0.0858)), (time: 0.2415, turn: -0.9309), (time: 0.3671), (time: 0.3993, by: (-0.177, 0.0))]), material: "m", at: (0.4228273070464064, 2.0459807802580663)),
+        (name: "b3", kinematic: (path: [(time: 0.03642), (time: 0.07886), (time: 0.1814, turn: -0.5766), (time: 0.442, velocity: (0.0, 0.3375))]), material: "m", shape: Regular(sides: 5, radius: 0.1125), at: (-0.32034495341639446, 1.4390198255628572)),
+    ],
+    forces: [
+        Drive(of: ["b3", "b2"], force: (-2.514, 0.0), course: Piecewise([(0.2358, 0.4637), (0.2692, 1.022)])),
+    ],
+)"#;
+    let source = Source::new("springs.ron", text.to_owned());
+    let overrides = Overrides { tolerance: Some(1e-6), ..Overrides::default() };
+    let load = || Simulation::load_with(&source, &overrides, |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    let (mut run, mut other) = (load(), load());
+    for tick in 1..run.ticks() {
+        run.run_to_tick(tick).unwrap();
+        let bytes = run.snapshot().unwrap().to_bytes();
+        let restored = other.restore(&Snapshot::from_bytes(&bytes).unwrap());
+        assert_eq!(restored.map_err(|why| why.to_string()), Ok(()), "after {tick} ticks");
+    }
+}

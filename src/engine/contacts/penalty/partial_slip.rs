@@ -17,16 +17,15 @@ use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 
-/// The greatest tangent of the angle between the normal of an opposite contact and the line to the other one. That line is the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of
-/// 120 degrees it is at 60 degrees, where a disc cannot roll on one side alone.
+/// The greatest tangent of the angle between the normal of an opposite contact and the line to the other one. That line is
+/// the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of 120 degrees it is at
+/// 60 degrees, where a disc cannot roll on one side alone.
 const OPPOSITE: f64 = 0.5;
-
-/// The body of all that does not move.
-const WORLD: usize = usize::MAX;
 
 /// A contact of two bodies.
 struct Link {
-    bodies: (usize, usize),
+    /// Both bodies in order; `None` for all that does not move.
+    bodies: (Option<usize>, Option<usize>),
     index: usize,
     /// Its place in metres.
     place: DVec2,
@@ -36,7 +35,7 @@ struct Link {
 
 impl Link {
     fn of(index: usize, geometry: &PairGeometry, place: DVec2, grip: Grip, bodies: &Bodies) -> Self {
-        let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]).unwrap_or(WORLD);
+        let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
         let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
         Self { bodies: (a.min(b), a.max(b)), index, place, normal: geometry.pair.normal, grip }
     }
