@@ -1,10 +1,12 @@
 //! Law: bodies that touch at the start and can rest stay where they are. The springs of their contacts bear the loads from the first
 //! moment on, so no body drops and rebounds. Source: statics. On a slope with the angle `a` a box holds if the static coefficient
-//! exceeds `tan a`, and a disc if its coefficient of rolling does too. Steeper ones slide with `g (sin a - mu_d cos a)`.
+//! exceeds `tan a`, and a disc if its coefficient of rolling does too. Steeper ones slide with `g (sin a - mu_d cos a)` from the
+//! first moment on.
 //!
 //! Tolerances: a body at rest keeps its place to the last bit under `Inelasticity`, and to 1e-6 of `m g/k` under `Dashpot`, whose
 //! forces have one value at rest. The engine moves a body before the start by the compression of its springs. That is a few times
-//! `m g/k`: a corner bears at most all, and a box that leans turns by the difference of two corners.
+//! `m g/k`: a corner bears at most all, and a box that leans turns by the difference of two corners. The search for the start may
+//! leave a share of 1e-7 of the forces. So the way of a slide is right to ten times that share, and to the last digits of its places.
 //!
 //! Not tested: bodies that joints hold; they begin as the scene places them.
 
@@ -114,8 +116,6 @@ fn boxes_and_discs_hold_on_slopes_that_friction_bears_and_slide_on_others() {
                 held += 1;
             }
             if degrees > 0.0 && stiffness > 1e5 {
-                // Before it slides steadily the box settles on its springs: their swing changes the sum of the normal force by the
-                // momentum of a fall through `m g/k`, to and fro.
                 let (friction, time) = (0.8 * tangent, 0.3);
                 let text = scene(&contacts, &material(friction), &boxy, time);
                 let mut simulation = load(&text, &way.1);
@@ -123,7 +123,7 @@ fn boxes_and_discs_hold_on_slopes_that_friction_bears_and_slide_on_others() {
                 simulation.run_to_end().unwrap_or_else(|failure| panic!("{what}: {failure}"));
                 let way = (begin - simulation.bodies().position[0]).length();
                 let exact = 0.5 * GRAVITY * (libm::sin(angle) - 0.9 * friction * libm::cos(angle)) * time * time;
-                let allowed = 4.0 * friction * GRAVITY / stiffness.sqrt() * time + 8.0 * sag;
+                let allowed = 1e-6 * exact + 1e-14;
                 assert!((way - exact).abs() <= allowed, "slides, {what}: {way} instead of {exact}, {allowed} allowed");
             }
         }
@@ -154,24 +154,17 @@ fn stacks_of_boxes_and_of_discs_stand() {
     }
 }
 
-/// Bodies that no equilibrium holds, that move, or whose springs begin with energy: they begin as the scene places them.
+/// Bodies that nothing presses together, that move, or whose springs begin with energy: they begin as the scene places them.
 #[test]
-fn without_an_equilibrium_bodies_begin_as_placed() {
+fn bodies_whose_springs_bear_nothing_or_something_else_begin_as_placed() {
     let material = "stiffness: 1e6, restitution: 0.3, friction: 0.6";
     let wall = "walls: [(name: \"w\", left: (0, 0), right: (0, 9), material: \"m\")]";
     let floor = "walls: [(name: \"f\", left: (1, 0), right: (0, 0), material: \"m\")]";
     let disc = |name: &str, x: f64, y: f64, more: &str| {
         format!("(name: \"{name}\", at: ({x:?}, {y:?}), material: \"m\", atoms: Disc(radius: 0.1, mass: 1){more})")
     };
-    let table = "(name: \"t\", at: (0, -0.5), fixed: true, material: \"m\", shape: Rectangle(width: 2, height: 1))";
-    let beyond = format!(
-        "bodies: [{table}, (name: \"b\", at: (1.05, 0.1), mass: 1, material: \"m\", shape: Rectangle(width: 0.6, height: 0.2))]"
-    );
     for (what, things) in [
         ("a disc beside a wall falls", format!("{wall}, bodies: [{}]", disc("a", 0.1, 3.0, ""))),
-        ("a disc on a slope rolls", on_slope(0.3, 0.1, "atoms: Disc(radius: 0.1)")),
-        ("a box on a steep slope slides", on_slope(0.7, 0.05, "shape: Rectangle(width: 0.4, height: 0.1)")),
-        ("a box beyond the edge tips", beyond),
         ("a disc that moves", format!("{floor}, bodies: [{}]", disc("a", 0.0, 0.1, ", velocity: (0.1, 0)"))),
         ("a disc pressed in", format!("{floor}, bodies: [{}]", disc("a", 0.0, 0.099, ""))),
         ("a disc above the floor", format!("{floor}, bodies: [{}]", disc("a", 0.0, 0.100_001, ""))),

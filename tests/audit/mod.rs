@@ -2,6 +2,7 @@
 
 mod agreement;
 mod begins_at_rest;
+mod begins_in_motion;
 mod boxes_on_rails;
 mod breaking;
 mod crowd;

@@ -3,7 +3,8 @@
 //!
 //! `g` is the row of a spring: the factors from the displacements of its two bodies to its elongation. `K` may be
 //! singular. A disc on a floor without friction is held in one direction of three. Such a system has a solution if no
-//! force acts in the free directions.
+//! force acts in the free directions. Otherwise bodies accelerate along them, and springs bear the rest
+//! (inertia relief, [`relieve`]).
 
 use glam::DVec2;
 
@@ -52,6 +53,10 @@ const HELD: f64 = 1e-8;
 /// A pivot below this share of its number before elimination is zero: no spring holds the body in that direction.
 const SINGULAR: f64 = 1e-13;
 
+/// Springs to the ground are weaker than the others by this factor when they tell the free directions. Two of them leave an
+/// error of its square, and rounding is the greater by its inverse.
+const WEAK: f64 = 1e-6;
+
 /// A direction that springs resist by less than this share of their stiffness is free. The square of rounding is far
 /// below it, and the softest wave through a thousand bodies far above.
 const SOFTEST: f64 = 1e-18;
@@ -71,6 +76,16 @@ impl NetworkSpring {
     /// Its elongation by these displacements.
     pub fn elongation(&self, by: &[Twist]) -> f64 {
         self.ends.iter().flatten().fold(0.0, |sum, end| sum + end.row.dot(by[end.body]))
+    }
+
+    /// The greatest elongation that these displacements could make, whatever their directions. `extents`: the sizes of the bodies
+    /// in metres.
+    pub fn most(&self, by: &[Twist], extents: &[f64]) -> f64 {
+        let size = |twist: Twist, extent: f64| twist.linear.length() + twist.angular.abs() * extent;
+        self.ends.iter().flatten().fold(0.0, |sum, end| {
+            let extent = extents[end.body];
+            sum + size(end.row, 1.0 / extent) * size(by[end.body], extent)
+        })
     }
 }
 
@@ -135,6 +150,75 @@ pub fn solve(springs: &[NetworkSpring], forces: &[Twist], work: &mut usize) -> R
         greatest(&residual, linear) <= HELD * force && greatest(&residual, angular) <= HELD * torque.max(force * reach);
     let finite = found.iter().all(|twist| twist.linear.is_finite() && twist.angular.is_finite());
     if held && finite { Ok(found) } else { Err(Unsolved::Free) }
+}
+
+/// The accelerations of bodies that nothing holds, and the displacements under the forces that are left.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Relief {
+    /// In m/s2 and rad/s2. No spring changes its elongation by them.
+    pub accelerations: Vec<Twist>,
+    /// In metres and rad. They have no part along the free directions, weighed by the masses.
+    pub displacements: Vec<Twist>,
+}
+
+/// Finds accelerations and displacements with `K u + M a = f` and `K a = 0`. `masses`: the mass and the moment of inertia of each body.
+/// Takes `M a` out of the forces.
+///
+/// # Errors
+/// If the work does not suffice.
+pub fn relieve(
+    springs: &[NetworkSpring],
+    masses: &[(f64, f64)],
+    forces: &mut [Twist],
+    work: &mut usize,
+) -> Result<Relief, Unsolved> {
+    let mut accelerations = vec![Twist::default(); forces.len()];
+    let mut displacements = Vec::new();
+    // The first round leaves rounding of the free motion in the displacements, the second one of the springs.
+    for _ in 0..2 {
+        let found = relieve_once(springs, masses, forces, work)?;
+        for (index, found) in found.accelerations.iter().enumerate() {
+            accelerations[index] = accelerations[index].plus(*found, 1.0);
+            let (mass, moment) = masses[index];
+            let bears = Twist { linear: found.linear * mass, angular: found.angular * moment };
+            forces[index] = forces[index].plus(bears, -1.0);
+        }
+        displacements = found.displacements;
+    }
+    Ok(Relief { accelerations, displacements })
+}
+
+/// A round of [`relieve`]. Springs of the stiffness `e M` hold each body to the ground. Then the displacements are `a / e + u` and a
+/// remainder that is proportional to `e`. Solutions with `e` and `2 e` separate the two.
+fn relieve_once(
+    springs: &[NetworkSpring],
+    masses: &[(f64, f64)],
+    forces: &[Twist],
+    work: &mut usize,
+) -> Result<Relief, Unsolved> {
+    let rate = |spring: &NetworkSpring, end: &NetworkEnd| {
+        let (mass, moment) = masses[end.body];
+        spring.stiffness * (end.row.linear.length_squared() / mass + end.row.angular * end.row.angular / moment)
+    };
+    let rates = springs.iter().flat_map(|spring| spring.ends.iter().flatten().map(|end| rate(spring, end)));
+    let fastest = rates.fold(0.0, f64::max);
+    // Without springs all is free, and any stiffness does.
+    let weak = WEAK * if fastest > 0.0 { fastest } else { 1.0 };
+    let axes = [(DVec2::X, 0.0), (DVec2::Y, 0.0), (DVec2::ZERO, 1.0)];
+    let mut tied = |weak: f64| {
+        let ground = masses.iter().enumerate().flat_map(|(body, &(mass, moment))| {
+            axes.map(|(linear, angular)| NetworkSpring {
+                ends: [None, Some(NetworkEnd { body, row: Twist { linear, angular } })],
+                stiffness: weak * if angular == 0.0 { mass } else { moment },
+            })
+        });
+        solve(&springs.iter().copied().chain(ground).collect::<Vec<_>>(), forces, work)
+    };
+    let (one, two) = (tied(weak)?, tied(2.0 * weak)?);
+    let mix = |factors: (f64, f64)| {
+        one.iter().zip(&two).map(|(one, two)| Twist::default().plus(*one, factors.0).plus(*two, factors.1)).collect()
+    };
+    Ok(Relief { accelerations: mix((2.0 * weak, -2.0 * weak)), displacements: mix((-1.0, 2.0)) })
 }
 
 /// The inverse of the stiffness that holds one body while the others stand; zero in free directions.
@@ -243,5 +327,39 @@ mod tests {
         let rim = NetworkSpring { ends: [None, end(0, 0.8, -0.6, 0.1)], ..floor };
         assert_eq!(solve(&[slope, rim], &[down(3.0)], &mut 1000), Err(Unsolved::Free));
         assert_eq!(solve(&[floor], &[down(3.0)], &mut 0), Err(Unsolved::Work));
+    }
+
+    /// Law: a disc that rolls down a slope has the acceleration `g sin a / (1 + I / (m r^2))`. Friction bears the rest of its weight
+    /// along the slope, and the normal force that across. Tolerance: GAIN, whose displacements are those of two bodies' weights.
+    #[test]
+    fn a_disc_accelerates_where_it_rolls() {
+        let (mass, moment, radius, stiffness) = (2.0, 0.03, 0.1, 1e6);
+        let spring = |row: (f64, f64, f64)| NetworkSpring { ends: [None, end(0, row.0, row.1, row.2)], stiffness };
+        // The slope rises to the left with 3 in 4. The rim turns with the way along it.
+        let springs = [spring((0.6, 0.8, 0.0)), spring((0.8, -0.6, radius))];
+        let mut forces = [down(10.0 * mass)];
+        let found = relieve(&springs, &[(mass, moment)], &mut forces, &mut 10_000).unwrap();
+        let along = 6.0 / (1.0 + moment / (mass * radius * radius));
+        let exact = Twist { linear: DVec2::new(0.8, -0.6) * along, angular: -along / radius };
+        let off = found.accelerations[0].plus(exact, -1.0);
+        assert!(off.linear.length() < 1e-10 * along && off.angular.abs() < 1e-10 * along / radius, "{found:?}");
+        assert!(
+            (springs[0].elongation(&found.displacements) + 0.8 * 10.0 * mass / stiffness).abs()
+                < 1e-10 * mass / stiffness
+        );
+        let friction = mass * (6.0 - along);
+        assert!((springs[1].elongation(&found.displacements) - friction / stiffness).abs() < 1e-10 * mass / stiffness);
+    }
+
+    /// Law: without any spring, each body falls by itself.
+    #[test]
+    fn free_bodies_fall() {
+        let mut forces = [down(3.0), Twist { linear: DVec2::X, angular: 0.5 }];
+        let found = relieve(&[], &[(1.5, 1.0), (2.0, 0.25)], &mut forces, &mut 1000).unwrap();
+        let exact = [down(2.0), Twist { linear: DVec2::X * 0.5, angular: 2.0 }];
+        for (found, exact) in found.accelerations.iter().zip(exact) {
+            let off = found.plus(exact, -1.0);
+            assert!(off.linear.length() < 1e-12 && off.angular.abs() < 1e-12, "{found:?}");
+        }
     }
 }

@@ -74,7 +74,7 @@ impl Entry for Thrust {
                 turns: value.frame == ThrustFrame::Body,
                 from: value.from.si(),
                 to: value.to.map_or(f64::INFINITY, Time::si),
-                acts: false,
+                acts: value.from.si() <= 0.0,
             });
         }
     }
@@ -97,7 +97,8 @@ pub struct ThrustForce {
     pub from: f64,
     /// The time at which it ends, in seconds.
     pub to: f64,
-    /// Whether it acts in the present tick; false at the beginning.
+    /// Whether it acts in the present tick. Before the first tick: whether it acts from the beginning on, so that contacts of the
+    /// start bear it.
     pub acts: bool,
 }
 

@@ -23,6 +23,8 @@ pub(super) enum Named {
 pub(super) struct Drawn {
     pub elongation: f64,
     pub force: f64,
+    /// Whether it slips with that force.
+    pub slips: bool,
 }
 
 /// A contact that begins in equilibrium.
@@ -63,10 +65,15 @@ pub(super) fn take_over<N: NormalForce>(
         let law = *contacts.laws.get(list.get(index).law);
         // In stages of a step a law with one force at rest is never held.
         let rests = N::dissipates(&law) && (N::SET_VALUED || mode == EvaluationMode::Following);
-        let drawn = |drawn: Drawn, rests: bool| Slider {
-            elongation: drawn.elongation,
-            held: if rests { drawn.force } else { 0.0_f64.copysign(drawn.force) },
-            grip: if rests { Grip::Hold } else { Grip::Stick },
+        let drawn = |Drawn { elongation, force, slips }: Drawn, rests: bool| Slider {
+            elongation,
+            held: if rests || slips { force } else { 0.0_f64.copysign(force) },
+            grip: match (slips, rests) {
+                (true, false) if mode == EvaluationMode::Following => Grip::Slip,
+                (true, _) => Grip::Slide,
+                (false, true) => Grip::Hold,
+                (false, false) => Grip::Stick,
+            },
         };
         let contact = Contact {
             law: list.get(index).law,

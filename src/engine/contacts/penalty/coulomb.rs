@@ -207,12 +207,13 @@ impl Slider {
     }
 
     /// Lets a spring stick that would slip against its force, and one slip that would stick without any normal force. Its ends
-    /// move past each other with `velocity`, a difference of velocities as great as `speed`. Says whether there was either.
+    /// move past each other with `velocity`, a difference of velocities as great as `speed`. Says whether there was either. Without
+    /// any speed it keeps the direction that forces have chosen.
     pub(super) fn settle_motion(&mut self, law: &SliderLaw, base: Base, (velocity, speed): (f64, f64)) -> bool {
         let follows = law.friction_dynamic.copysign(self.held) * base.rate / law.stiffness;
         let rounding = ROUNDING * (speed + follows.abs());
         match self.grip {
-            Grip::Slide if (velocity - follows) * self.held.signum() < -rounding => {
+            Grip::Slide if speed > 0.0 && (velocity - follows) * self.held.signum() < -rounding => {
                 // A holding spring remembers its direction.
                 (self.grip, self.held) = (Grip::Stick, 0.0_f64.copysign(velocity));
             }

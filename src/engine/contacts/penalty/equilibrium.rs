@@ -7,7 +7,9 @@
 //! * A contact of the island slides, turns, approaches or parts at the start.
 //! * The springs bear the loads as bodies stand, within the band of the normal law.
 //! * Sides overlap by another depth than their load asks for: the scene gives their springs that energy.
-//! * No equilibrium exists within the cones of friction, or the search does not find it within its bound. The card says the latter.
+//! * The search does not come to an end within its bound. The card says so.
+//!
+//! Bodies that nothing holds in some direction slide, roll or tip at once. Their springs bear what the acceleration leaves.
 //!
 //! The places depend on the scene alone. So all methods and ticks begin in the same state.
 
@@ -15,7 +17,8 @@ use bevy_ecs::prelude::*;
 
 use super::apply::{sides_at_surface, sides_of_atoms};
 use super::begun::{Begun, Named};
-use super::equilibrium_search::{Candidate, Outcome, Search, touch_gap};
+use super::equilibrium_part::{Candidate, touch_gap};
+use super::equilibrium_search::{Outcome, Search};
 use super::normal::NormalForce;
 use super::pair_law::{LawTable, PairSide};
 use super::penalty_model::PenaltyState;
@@ -35,7 +38,7 @@ pub(super) fn begin<N: NormalForce>(world: &mut World) {
     let mut state = std::mem::take(&mut *world.resource_mut::<State>());
     let found = find::<N>(&mut state);
     *world.resource_mut::<State>() = state;
-    let Some(Found { moved, begun, unsolved }) = found else { return };
+    let Some(Found { moved, begun, some_move, unsolved }) = found else { return };
     let name = |world: &World, body: usize| {
         let entity = world.resource::<State>().bodies.entity[body];
         world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string)
@@ -48,8 +51,9 @@ pub(super) fn begin<N: NormalForce>(world: &mut World) {
             1 => format!("`{name}` by {way} m"),
             many => format!("{many} bodies, `{name}` the farthest by {way} m"),
         };
+        let begin = if some_move { ", or slide and roll at once" } else { "" };
         notes.push(format!(
-            "start: bodies that touch begin in equilibrium. The engine moved {moved_bodies}, so that the springs of contacts bear the loads. \
+            "start: bodies that touch begin in equilibrium{begin}. The engine moved {moved_bodies}, so that the springs of contacts bear the loads. \
              `contacts: Penalty(start: AsPlaced)` leaves bodies as they stand"
         ));
     }
@@ -79,6 +83,8 @@ struct Found {
     /// Bodies that have moved, in canonical order, and the way of their farthest points in metres.
     moved: Vec<(usize, f64)>,
     begun: Vec<Begun>,
+    /// Whether bodies that have moved accelerate at once.
+    some_move: bool,
     /// A body of the largest island without a result, and the number of bodies there.
     unsolved: Option<(usize, usize)>,
 }
@@ -116,7 +122,7 @@ fn find<N: NormalForce>(state: &mut State) -> Option<Found> {
     let jointed = state.jointed_at_start();
     search.gather(&state.bodies, &jointed);
     if !search.is_needed() {
-        return Some(Found { moved: Vec::new(), begun: search.jointed().to_vec(), unsolved: None });
+        return Some(Found { moved: Vec::new(), begun: search.jointed().to_vec(), some_move: false, unsolved: None });
     }
     let members: Vec<bool> = (0..state.bodies.len()).map(|body| search.has(body)).collect();
     near.each::<N>(
@@ -130,10 +136,13 @@ fn find<N: NormalForce>(state: &mut State) -> Option<Found> {
     );
     let start: Vec<_> = state.bodies.position.iter().copied().zip(state.bodies.angle.iter().copied()).collect();
     search.run(state, &pairs, &mut loads);
-    let (mut begun, mut unsolved) = (search.jointed().to_vec(), None::<(usize, usize)>);
+    let (mut begun, mut some_move, mut unsolved) = (search.jointed().to_vec(), false, None::<(usize, usize)>);
     for island in search.islands() {
         match island.outcome {
-            Outcome::Found => begun.extend(island.begun()),
+            Outcome::Found => {
+                some_move |= island.moves();
+                begun.extend(island.begun());
+            }
             Outcome::Bound if unsolved.is_none_or(|(_, most)| island.members().len() > most) => {
                 unsolved = island.members().first().map(|first| (*first, island.members().len()));
             }
@@ -146,7 +155,7 @@ fn find<N: NormalForce>(state: &mut State) -> Option<Found> {
         let way = bodies.position[body].distance(position) + (bodies.angle[body] - angle).abs() * bodies.extent(body);
         (way > 0.0).then_some((body, way))
     });
-    Some(Found { moved: moved.collect(), begun, unsolved })
+    Some(Found { moved: moved.collect(), begun, some_move, unsolved })
 }
 
 /// Candidate pairs with their laws.

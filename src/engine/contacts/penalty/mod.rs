@@ -12,6 +12,7 @@ pub mod coulomb;
 mod critical;
 pub mod dashpot;
 mod equilibrium;
+mod equilibrium_part;
 mod equilibrium_search;
 mod features;
 mod follow;
