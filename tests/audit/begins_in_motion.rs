@@ -15,9 +15,9 @@
 use std::fmt::Write;
 
 use glam::DVec2;
+use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
-use jostle::Simulation;
 
 const GRAVITY: f64 = 9.81;
 

@@ -122,3 +122,23 @@ fn a_departure_that_finer_ticks_take_back_is_none() {
         }
     }
 }
+
+/// Law: bodies that rest in a run, and go elsewhere in a run that locates events, are not trusted to rest. A ceiling presses a wheel
+/// that gravity pulls aside. As placed, it presses as a contact that loads, and that holds the wheel. Held contacts let it roll.
+#[test]
+fn rest_that_a_run_of_the_other_kind_contradicts_is_not_trusted() {
+    let scene = |friction: f64| {
+        format!(
+            "Scene(format: 1, clock: (duration: 0.2), gravity: (20, -10), contacts: Penalty(start: AsPlaced),
+                materials: {{ \"m\": (stiffness: 1e6, restitution: 0.3, friction: {friction:?}) }},
+                walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\"),
+                        (name: \"ceiling\", left: (0, 0.19997), right: (1, 0.19997), material: \"m\")],
+                bodies: [(name: \"w\", at: (0, 0.09998), material: \"m\", atoms: Disc(radius: 0.1, mass: 1))])"
+        )
+    };
+    let (error, verdict) = stated_by(&scene(0.8));
+    assert!(error > 0.1 && verdict.starts_with("Do not trust it: bodies rest that go"), "{error}: {verdict}");
+    // With more friction, all runs rest.
+    let (_, verdict) = stated_by(&scene(2.0));
+    assert!(verdict.starts_with("Trust it: all bodies rest"), "{verdict}");
+}

@@ -37,6 +37,8 @@ const MOST_NUMBERS: u64 = 6_000_000;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Share of the motion from which positions count as wrong.
 const PARTED: f64 = 1e-2;
+/// Ways of bodies at rest below this share of the smallest radius are rounding.
+const STILL: f64 = 1e-9;
 /// Fewer moments show no growth.
 const FEWEST_MOMENTS: usize = 4;
 
@@ -81,6 +83,8 @@ pub struct EstimatedError {
     pub model_until: Option<f64>,
     /// The departure of runs of the other kind, if they go farther than both errors explain.
     pub elsewhere: Option<Elsewhere>,
+    /// How far in metres bodies go in a finer run that rest in this one, if they go farther than their springs give.
+    pub restless: Option<f64>,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,
     /// Further notes on it.
@@ -273,8 +277,11 @@ fn discretisation(
     if let Some(twin) = first_twin {
         tell_part(simulation, &twin, until, found);
     }
-    if stands(simulation.resource::<State>()) {
-        // The differences are rounding, however small the motion.
+    let state = simulation.resource::<State>();
+    if stands(state) {
+        // Bodies at rest go nowhere, so no difference is a share of their way. Springs that give make some of it.
+        let gives = state.deepest_overlap().in_meters.overlap.max(STILL * state.bodies().smallest_radius);
+        found.restless = Some(told.distance).filter(|distance| *distance > gives);
         (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);
     }
     let known = |error: f64| ErrorParts {

@@ -54,7 +54,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// All causes, in such an order that the first explains later ones.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 22] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 23] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -67,6 +67,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 22] = [
     energy::unaccounted,
     energy::given_back,
     trajectory_error::contradicted,
+    trajectory_error::restless,
     trajectory_error::finer_run_failed,
     trajectory_error::tolerance_not_reached,
     overlap::deep,

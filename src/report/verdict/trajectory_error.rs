@@ -98,6 +98,17 @@ pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
     Some(Cause { trust: Trust::ButNot(VerdictPart::Places), what, remedy: None })
 }
 
+/// Bodies rest that go elsewhere in a finer run.
+pub(super) fn restless(evidence: &Evidence) -> Option<Cause> {
+    let distance = evidence.world.get_resource::<EstimatedError>()?.restless?;
+    let what = format!(
+        "bodies rest that go up to {} m in a run with finer steps. Forces of contacts may hold them or not, and statics does not \
+         determine these forces. At most one of both runs is right",
+        rough(distance)
+    );
+    Some(Cause { trust: Trust::Not, what, remedy: None })
+}
+
 /// Stiffer contacts lead elsewhere.
 pub(super) fn soft_contacts(evidence: &Evidence) -> Option<Cause> {
     let until = evidence.world.get_resource::<EstimatedError>()?.model_until?;

@@ -58,7 +58,7 @@ impl SliderLaw {
     }
 
     /// Elongation in metres of a spring that slips.
-    fn slipped(&self, normal_force: f64) -> f64 {
+    pub(super) fn slipped(&self, normal_force: f64) -> f64 {
         self.friction_dynamic * normal_force / self.stiffness
     }
 }

@@ -271,11 +271,12 @@ impl Stretch {
         if !law.acts() {
             return true;
         }
-        let (moving, limit) = (round == Round::Moving, normal / law.stiffness);
-        let most = OF_CONE * law.friction_static * limit;
+        let moving = round == Round::Moving;
+        let most = OF_CONE * law.friction_static * normal / law.stiffness;
         self.slips = self.slips && moving || self.elongation.abs() > most;
         if self.slips {
-            self.elongation = (if moving { law.friction_dynamic * limit } else { most }).copysign(self.elongation);
+            let slipped = if moving { law.slipped(normal) } else { most };
+            self.elongation = slipped.copysign(self.elongation);
         }
         !self.slips
     }

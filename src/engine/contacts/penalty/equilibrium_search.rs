@@ -327,9 +327,13 @@ impl IslandSearch {
         self.parts.iter().filter(|part| part.now.closed && part.now.overlap > 0.0).map(|part| part.begun(self.moves))
     }
 
-    /// The contacts that bear the loads as the scene places them.
+    /// The contacts that bear the loads as the scene places them, or what accelerations leave of them.
     pub fn as_placed(&self, set_valued: bool) -> impl Iterator<Item = Begun> + '_ {
-        self.parts.iter().filter(|_| self.holds_as_placed).filter_map(move |part| part.as_placed(set_valued))
+        let begun = move |part: &Part| {
+            let held = part.as_placed(set_valued)?;
+            Some(if self.moves { Begun { overlap: held.overlap, ..part.begun(true) } } else { held })
+        };
+        self.parts.iter().filter(|_| self.holds_as_placed).filter_map(begun)
     }
 
     /// Bodies go back to where the scene places them.
@@ -357,7 +361,7 @@ impl IslandSearch {
         let stays = first
             || self.parts.iter().any(|part| foreign(part) || drawn(part))
             || self.parts.iter().all(bears_as_placed);
-        self.holds_as_placed = !self.moves && self.parts.iter().all(bears_as_placed);
+        self.holds_as_placed = self.parts.iter().all(bears_as_placed);
         if stays { self.leave(Outcome::AsPlaced, bodies) } else { self.outcome = Outcome::Found }
     }
 }
