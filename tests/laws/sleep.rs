@@ -259,3 +259,83 @@ fn a_few_that_rest_among_many_that_are_fixed_sleep() {
     run_to(&mut simulation, 2.0);
     assert!(simulation.bodies().all_asleep());
 }
+
+/// Blocks that sleep on a thin support, and a heavy striker that comes once all rest and drives one of them down.
+fn struck(support: &str, block: &str) -> String {
+    let mut row = String::new();
+    for number in 0..24 {
+        let x = 0.3 * f64::from(number);
+        let _ = write!(row, "(name: \"block_{number}\", at: ({x:?}, 0.051), material: \"stone\", {block}),");
+    }
+    format!(
+        "Scene(format: 1, clock: (duration: 1, tick: \"20 us\", method: VelocityVerlet), gravity: (0, -9.81),
+        materials: {{ \"stone\": (stiffness: 50000, friction: 0.5, restitution: 0, density: 10) }},
+        {support} {row}
+            (name: \"striker\", at: (2.13, 1.6), velocity: (0, -1), mass: 5000, material: \"stone\", atoms: Disc(radius: 0.3))])"
+    )
+}
+
+/// Promise: who sleeps is not looked at for crossings until it wakes, and then as ever. What is driven through its support out of its sleep
+/// ends the run in the tick, and with the words, of a run in which nobody sleeps.
+#[test]
+fn what_wakes_and_passes_through_its_support_ends_the_run() {
+    let plate = "bodies: [(name: \"support\", fixed: true, at: (3, -0.009), material: \"stone\", shape: Rectangle(width: 9, height: 0.02)),";
+    let strip = "walls: [(name: \"support\", from: (-1, 0), to: (8, 0), material: \"stone\")], bodies: [";
+    let blocks = ["shape: Rectangle(width: 0.1, height: 0.1)", "atoms: Disc(radius: 0.05)"];
+    for (support, block) in [plate, strip].into_iter().flat_map(|support| blocks.map(|block| (support, block))) {
+        let text = struck(support, block);
+        let [asleep, awake] = [true, false].map(|may_sleep| {
+            let mut simulation = load_awake(&text, may_sleep);
+            run_to(&mut simulation, 0.35);
+            assert_eq!(simulation.bodies().is_asleep(simulation.bodies().len() - 10), may_sleep, "{support} {block}");
+            simulation.run_to_tick(50_000).expect_err("the striker drives a block through").to_string()
+        });
+        assert!(asleep.contains("`block_7` has passed through `support`"), "{asleep}");
+        assert_eq!(asleep, awake, "{support} {block}");
+    }
+}
+
+/// Two rows of discs between stops, each pressed together, and a ball that falls on the end of one. Names run against the way of the blow.
+fn two_rows() -> String {
+    let mut rows = String::new();
+    for number in (0..80).rev() {
+        let (row, place) = (number / 40, number % 40);
+        let x = 0.1998 * f64::from(place) + 20.0 * f64::from(row);
+        let _ = write!(rows, "(name: \"{number}\", at: ({x:?}, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),");
+    }
+    format!(
+        "Scene(format: 1, clock: (duration: 2, tick: 0.0002, method: VelocityVerlet), gravity: (0, -9.81),
+        materials: {{ \"stone\": (stiffness: 50000, friction: 0.5, restitution: 0, density: 10) }},
+        walls: [(name: \"floor\", left: (9, 0), right: (-9, 0), material: \"stone\")],
+        bodies: [
+            (name: \"stop_0\", fixed: true, at: (-0.1998, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),
+            (name: \"stop_1\", fixed: true, at: (7.992, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),
+            (name: \"stop_2\", fixed: true, at: (19.8002, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),
+            (name: \"stop_3\", fixed: true, at: (27.992, 0.1), material: \"stone\", atoms: Disc(radius: 0.1)),
+            {rows}
+            (name: \"ball\", at: (-0.05, 12), material: \"stone\", atoms: Disc(radius: 0.1))])"
+    )
+}
+
+/// Promise: rest ends in one tick for all whom contacts connect to a body that moves, through others at rest. It ends for no one else, and not
+/// beyond a body that is fixed.
+#[test]
+fn a_blow_wakes_at_once_all_whom_contacts_connect_and_no_others() {
+    let mut simulation = load(&two_rows());
+    let asleep = |simulation: &Simulation, row: usize| {
+        let bodies = simulation.bodies();
+        let of_row = |body: &usize| bodies.dynamic[*body] && bodies.position[*body].y < 0.2;
+        let of_row = (0..bodies.len()).filter(of_row).filter(|body| (bodies.position[*body].x > 15.0) == (row == 1));
+        of_row.filter(|body| bodies.is_asleep(*body)).count()
+    };
+    run_to(&mut simulation, 1.4);
+    assert_eq!([asleep(&simulation, 0), asleep(&simulation, 1)], [40, 40]);
+    let tick = (7000..10_000).find(|tick| {
+        simulation.run_to_tick(*tick).expect("numbers stay finite");
+        asleep(&simulation, 0) < 40
+    });
+    assert!(tick.is_some(), "the ball woke nobody");
+    assert!(asleep(&simulation, 0) > 38, "who was not touched woke before the search");
+    simulation.run_to_tick(tick.unwrap() + 1).expect("numbers stay finite");
+    assert_eq!([asleep(&simulation, 0), asleep(&simulation, 1)], [0, 40]);
+}

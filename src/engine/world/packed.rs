@@ -225,17 +225,18 @@ impl Bodies {
 
     /// Wakes all bodies.
     pub fn wake_all(&mut self) {
-        self.lay_asleep(Vec::new());
+        self.lay_asleep(&[]);
         self.awake.clear();
     }
 
     /// Puts the bodies of these bits to sleep, and no others. The caller fills `awake`.
-    pub(crate) fn lay_asleep(&mut self, asleep: Vec<u8>) {
+    pub(crate) fn lay_asleep(&mut self, asleep: &[u8]) {
         let sleeps_on = |block: usize, bits: u8| bits & !asleep.get(block).copied().unwrap_or(0) == 0;
         let all_sleep_on = self.asleep.iter().enumerate().all(|(block, &bits)| sleeps_on(block, bits));
         self.rousings += u64::from(!all_sleep_on);
         self.posed = false;
-        self.asleep = asleep;
+        self.asleep.clear();
+        self.asleep.extend_from_slice(asleep);
     }
 
     /// Blocks of eight bodies that need work: how many there are, to be asked for with [`Bodies::awake_block`].

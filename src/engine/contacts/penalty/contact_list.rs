@@ -316,7 +316,7 @@ impl ContactList {
             let indices = BLOCK * block..self.len.min(BLOCK * block + BLOCK);
             indices.rev().fold(0, |bits, index| bits << 1 | u8::from(sleeps(index)))
         };
-        self.asleep = (0..self.phases.len()).map(bits).collect();
+        self.asleep.extend((0..self.phases.len()).map(bits));
         for (block, (asleep, phases)) in self.asleep.iter().zip(&self.phases).enumerate() {
             self.asleep_touching += (phases.touching() & asleep).count_ones() as usize;
             let there = self.len - BLOCK * block;

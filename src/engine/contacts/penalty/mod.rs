@@ -43,6 +43,7 @@ mod settling;
 mod standing;
 mod surfaces;
 mod switching;
+mod waking;
 mod watched;
 
 use bevy_app::App;

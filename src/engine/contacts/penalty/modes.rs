@@ -13,13 +13,14 @@ use super::pair_law::PairLaw;
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use super::search_schedule::{Found, MANY};
+use super::waking::{Lists, Waking};
 use crate::constraints::Rows;
 use crate::constraints::islands::{IslandLink, Islands, Marked, Members};
 use crate::constraints::rest_solver::{
     ContactOutcome, CoulombSpring, FrictionOutcome, Island, Mover, MovingFrame, RestContact,
 };
 use crate::contacts::geometry::{ContactEnd, ContactSides, Listed, PairGeometry, SideA};
-use crate::contacts::{AtomPair, CandidatePairs, SurfacePair};
+use crate::contacts::{CandidatePairs, SurfacePair};
 use crate::tick::steady::SteadySprings;
 use crate::tick::{Clock, Ledger, Span, Stability};
 use crate::world::Bodies;
@@ -35,6 +36,7 @@ pub(super) struct Scratch {
     islands: Islands,
     members: Members,
     island: Island,
+    waking: Waking,
 }
 
 /// Touching pairs choose loading, unloading or hold for the coming step. If that changes a force, the sums are corrected by the
@@ -51,11 +53,11 @@ pub(super) fn choose<N: NormalForce>(
         return false;
     }
     let sink = Sink { bodies, rates, forces };
-    let Scratch { touching, cases, joined, moved, islands, members, island } = scratch;
+    let Scratch { touching, cases, joined, moved, islands, members, island, waking } = scratch;
     let (ticks, losses) = (clock.ticks, Losses::default());
     let thorough = contacts.schedule.tries_thoroughly(ticks);
     let mut choice = Choice { sink, contacts, rolling, rows, dt: span.length, thorough, losses, changed: false };
-    choice.wake_touched(pairs);
+    choice.wake_touched(pairs, waking);
     // If the normal force may have several values at rest, the search decides which it has. Without it contacts load and unload
     // in turns.
     let restless = if N::SET_VALUED { 0 } else { choice.restless(pairs) };
@@ -135,7 +137,7 @@ impl Choice<'_> {
     }
 
     /// Bodies at rest that touch one that moves wake, and so do their neighbours.
-    fn wake_touched(&mut self, pairs: &CandidatePairs) {
+    fn wake_touched(&mut self, pairs: &CandidatePairs, waking: &mut Waking) {
         let PenaltyContacts { atoms, surfaces, rest, .. } = &mut *self.contacts;
         if rest.is_empty() {
             return;
@@ -149,34 +151,19 @@ impl Choice<'_> {
         };
         let some_start = bodies.prescribed.motions.iter().any(|(body, _)| starts(*body, bodies));
         // A body that was pushed has woken by that.
-        let mut woke = std::mem::take(&mut rest.woke) || some_start;
-        if !woke {
+        if !(std::mem::take(&mut rest.woke) || some_start) {
             return;
         }
         self.sink.bodies.catch_up();
         let bodies = &*self.sink.bodies;
-        let ends = |index: usize| {
-            let AtomPair { a, b } = pairs.atoms[index];
-            (bodies.atom_body(a as usize), bodies.atom_body(b as usize))
-        };
         let moves = |body: usize, rest: &Rest| {
             let still = stands(bodies.velocity[body], bodies.spin[body]) && !(some_start && starts(body, bodies));
             !still || bodies.dynamic[body] && !rest.has(body)
         };
-        while woke {
-            woke = false;
-            for index in atoms.touching() {
-                let (a, b) = ends(index);
-                woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
-            }
-            for index in surfaces.touching() {
-                if let (Some(a), b) = pairs.surfaces[index].bodies(bodies) {
-                    woke |= moves(a, rest) && rest.wake(b) || moves(b, rest) && rest.wake(a);
-                }
-            }
+        if waking.spread(Lists { pairs, atoms, surfaces, bodies }, rest, moves) {
+            self.contacts.rest.forget_woken();
+            self.contacts.lay_asleep(self.sink.bodies, pairs, self.sink.forces.as_deref_mut());
         }
-        self.contacts.rest.forget_woken();
-        self.contacts.lay_asleep(self.sink.bodies, pairs, self.sink.forces.as_deref_mut());
     }
 
     /// A contact as it is, and its law.

@@ -80,6 +80,8 @@ impl<N: NormalForce> Model for Contacts<N> {
         demand(rolls, "the laws of rolling contacts")?;
         self.own.rolling = rolling;
         self.own.contacts.take_over(contacts);
+        // It knows lists of pairs by their version.
+        self.scratch = Scratch::default();
         Ok(())
     }
 

@@ -43,6 +43,9 @@ pub(super) struct Rest {
     changed: bool,
     /// Some woke since their neighbours were looked at.
     pub woke: bool,
+    /// A bit for each body that falls asleep, and whether each block of bodies stays awake. Only their memory is kept.
+    #[serde(skip)]
+    blocks: (Vec<u8>, Vec<bool>),
 }
 
 impl Rest {
@@ -181,8 +184,11 @@ impl PenaltyContacts {
         // Bodies that were laid to rest in this tick have yet to be checked. The lists may be renewed before that.
         rest.changed = rest.resting.iter().any(|resting| resting.left_over.is_none());
         let known = rest.generation == bodies.generation && *sleep == Sleep::Allowed;
-        let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && rest.has(resting.body));
-        let mut asleep = vec![0_u8; bodies.len().div_ceil(BLOCK)];
+        let still = |body: usize| rest.still.get(body).is_some_and(|still| *still);
+        let sleepers = rest.resting.iter().filter(|resting| resting.left_over.is_some() && still(resting.body));
+        let (asleep, awake) = &mut rest.blocks;
+        asleep.clear();
+        asleep.resize(bodies.len().div_ceil(BLOCK), 0);
         let mut count = 0;
         for resting in sleepers.filter(|_| known) {
             asleep[resting.body / BLOCK] |= 1 << (resting.body % BLOCK);
@@ -205,7 +211,8 @@ impl PenaltyContacts {
             let (a, b) = pairs.surfaces[index].bodies(bodies);
             body_stands(b) && a.is_none_or(body_stands)
         });
-        let mut awake = vec![false; bodies.asleep.len()];
+        awake.clear();
+        awake.resize(bodies.asleep.len(), false);
         let whole = |block: usize| {
             let there = bodies.len() - BLOCK * block;
             if there < BLOCK { (1_u8 << there) - 1 } else { u8::MAX }
@@ -231,9 +238,14 @@ impl PenaltyContacts {
                 [a, Some(b)].into_iter().flatten().for_each(|body| awake[body / BLOCK] = true);
             }
         }
-        bodies.awake = (0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32).collect();
+        bodies.awake.clear();
+        bodies.awake.extend((0..awake.len()).filter(|&block| awake[block]).map(|block| block as u32));
         if let Some(forces) = forces {
-            let mut asleep = (vec![DVec2::ZERO; bodies.len()], vec![DVec2::ZERO; bodies.walls.len()]);
+            let mut asleep = forces.asleep.take().unwrap_or_default();
+            for (list, count) in [(&mut asleep.0, bodies.len()), (&mut asleep.1, bodies.walls.len())] {
+                list.clear();
+                list.resize(count, DVec2::ZERO);
+            }
             for (index, point) in self.atom_points(bodies, pairs) {
                 if let Other::Body(other) = point.other
                     && self.atoms.is_asleep(index)

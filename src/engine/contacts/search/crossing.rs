@@ -10,6 +10,8 @@
 //!
 //! Two sharp hulls meet in rounded form. If the core of a corner has entered the other core, the nearest side need not
 //! be its entry. The run ends if a contact would thus change from one side to another.
+//!
+//! Bodies that sleep stand where the last look found them. No look returns to them until they wake.
 
 use bevy_ecs::entity::Entity;
 use bevy_ecs::world::World;
@@ -17,6 +19,7 @@ use glam::DVec2;
 use jostle_shapes::{Feature, Hull, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
+use super::slept::{Slept, pair_sleeps};
 use crate::contacts::{Probe, Surface, SurfacePair};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
 use crate::tick::{Dependence, Energies, FailureKind, Model, State, SteadySpring};
@@ -38,13 +41,17 @@ struct Crossings {
     before_round: Vec<DVec2>,
     /// Probes near hulls and lines, of the lists of this version.
     near: Vec<Watched>,
-    /// Each stays outside up to this [`Crossings::path`].
+    /// Each stays outside up to this [`Crossings::path`]; infinite while both bodies sleep.
     until: Vec<f64>,
     version: u64,
     /// The generation of the bodies at which those lists were made.
     generation: u64,
     /// Places in m and angles in rad of all bodies when they were last looked at.
     seen: Vec<(DVec2, f64)>,
+    /// The bodies asleep then.
+    slept: Slept,
+    /// The bodies asleep at the beginning of the last step.
+    slept_before: Slept,
     /// The sum of the greatest ways in m between those looks.
     path: f64,
 }
@@ -82,13 +89,14 @@ impl Model for Crossings {
     }
 
     fn fits(&self, state: &State) -> Result<(), UnfitSnapshot> {
-        let Self { before, before_round, near, until, seen, .. } = self;
+        let Self { before, before_round, near, until, seen, slept, slept_before, .. } = self;
         let bodies = state.bodies();
         let whole = |len: usize, of: usize| len == 0 || len == of;
         let known = near.iter().all(|watched| watched.pair.is_among(bodies));
         let atoms = bodies.atom_count();
         let lengths = near.len() == until.len() && whole(before.len(), atoms) && whole(before_round.len(), atoms);
-        demand(known && lengths && whole(seen.len(), bodies.len()), "the probes watched near hulls and lines")
+        let told = whole(seen.len(), bodies.len()) && slept.fits(bodies) && slept_before.fits(bodies);
+        demand(known && lengths && told, "the probes watched near hulls and lines")
     }
 
     fn dependence(&self) -> Dependence {
@@ -112,14 +120,18 @@ impl Model for Crossings {
         }
         let State { bodies, pairs: Some(pairs), .. } = state else { return };
         self.follow(bodies);
-        self.before.clear();
+        let Self { before, before_round, slept_before, .. } = &mut *self;
         if has_ends(bodies) {
-            self.before.extend((0..bodies.atom_count()).map(|atom| bodies.atom_place(atom)));
+            note(before, slept_before, bodies, |atom| bodies.atom_place(atom));
+        } else {
+            before.clear();
         }
-        self.before_round.clear();
         if let Some(thin) = bodies.walls.iter().find(|wall| wall.is_thin() && !bodies.hulls.is_empty()) {
-            self.before_round.extend((0..bodies.atom_count()).map(|atom| bodies.meeting_wall(thin, atom).0));
+            note(before_round, slept_before, bodies, |atom| bodies.meeting_wall(thin, atom).0);
+        } else {
+            before_round.clear();
         }
+        slept_before.note(bodies);
         if self.version != pairs.version {
             self.version = pairs.version;
             self.take_up(&pairs.surfaces, bodies);
@@ -127,6 +139,9 @@ impl Model for Crossings {
         let path = self.path;
         for (until, watched) in self.until.iter_mut().zip(&mut self.near).filter(|(until, _)| **until <= path) {
             (*watched, *until) = Watched::at(watched.pair, bodies, path).unwrap_or((*watched, *until));
+            if pair_sleeps(watched.pair.bodies(bodies), bodies) {
+                *until = f64::INFINITY;
+            }
         }
     }
 
@@ -141,12 +156,15 @@ impl Model for Crossings {
 
 impl Crossings {
     fn look(&mut self, state: &mut State) {
+        if self.slept.all_on(&state.bodies) {
+            return;
+        }
         if let Some((body, wrong)) = self.first(&state.bodies) {
             state.end_run(body, wrong);
         }
         let bodies = &state.bodies;
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
-            return;
+            return self.slept.note(bodies);
         }
         let margin = state.bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.margin);
         if let Some((body, hull)) = self.passed_unlisted(bodies, margin) {
@@ -161,7 +179,8 @@ impl Crossings {
             let left = watched.left_now(bodies);
             // A probe that has gone farther is due when the next step begins.
             if left > 0.5 * watched.left {
-                *until = path + 0.5 * left;
+                let sleeps = pair_sleeps(watched.pair.bodies(bodies), bodies);
+                *until = if sleeps { f64::INFINITY } else { path + 0.5 * left };
             }
             if left > 0.0 { None } else { Some((watched.pair, watched.wrong(bodies)?)) }
         });
@@ -213,7 +232,8 @@ impl Crossings {
             let bound = moved.x.abs() + moved.y.abs() + turn;
             if bound > greatest { greatest.max(moved.length() + turn) } else { greatest }
         };
-        self.seen.iter().enumerate().take(bodies.len()).fold(0.0, farther)
+        let known = self.slept.others(bodies).filter_map(|body| Some((body, self.seen.get(body)?)));
+        known.fold(0.0, farther)
     }
 
     /// Watches the pairs of a new list. Those that were in the old one are looked at when they are due.
@@ -236,11 +256,16 @@ impl Crossings {
     /// Adds the greatest way of any point of a body since the last check.
     fn follow(&mut self, bodies: &Bodies) {
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
-            return;
+            return self.slept.note(bodies);
         }
         self.path += self.way(bodies);
-        self.seen.clear();
-        self.seen.extend(bodies.position.iter().copied().zip(bodies.angle.iter().copied()));
+        if self.slept.roused(bodies) {
+            self.until.iter_mut().filter(|until| **until == f64::INFINITY).for_each(|until| *until = self.path);
+        }
+        self.seen.resize(bodies.len(), Default::default());
+        let see = |body: usize| self.seen[body] = (bodies.position[body], bodies.angle[body]);
+        self.slept.others(bodies).for_each(see);
+        self.slept.note(bodies);
     }
 
     /// Whether an atom was near a line as the step began, or that is unknown. Atoms that come from behind were in no
@@ -256,8 +281,11 @@ impl Crossings {
             return None;
         }
         let moves = |body: &usize| bodies.dynamic[*body] && bodies.collides[*body];
-        let atoms =
-            (0..bodies.len()).filter(moves).flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
+        let atoms = self
+            .slept
+            .others(bodies)
+            .filter(moves)
+            .flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
         for (body, atom) in atoms.filter(|(_, atom)| bodies.probes(*atom)) {
             let (Some(&before), now) = (self.before.get(atom), bodies.atom_place(atom)) else { continue };
             let is_crossed = |wall: &usize| {
@@ -325,6 +353,12 @@ impl Watched {
         }
         self.touched.is_some_and(|(before, _)| has_jumped(self.pair, before, bodies)).then_some(FailureKind::Sunk)
     }
+}
+
+/// Notes the places of all atoms in m. Those of bodies that sleep on are known.
+fn note(places: &mut Vec<DVec2>, slept: &Slept, bodies: &Bodies, place: impl Fn(usize) -> DVec2) {
+    places.resize(bodies.atom_count(), DVec2::ZERO);
+    slept.others(bodies).flat_map(|body| bodies.atoms_of(body)).for_each(|atom| places[atom] = place(atom));
 }
 
 fn has_ends(bodies: &Bodies) -> bool {

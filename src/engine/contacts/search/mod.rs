@@ -14,6 +14,7 @@ mod crossing;
 mod hulls;
 mod identity;
 mod lines;
+mod slept;
 mod sort_and_sweep;
 mod still;
 mod sunk;

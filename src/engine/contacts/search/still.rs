@@ -129,7 +129,7 @@ mod tests {
             bodies.position = (0..bodies.len()).map(|body| bodies.atom_position[bodies.atoms_of(body).start]).collect();
             // One in a dozen is awake.
             let asleep = (0..bodies.len().div_ceil(BLOCK)).map(|block| if block % 3 == 0 { 0xdf } else { 0xff });
-            bodies.lay_asleep(asleep.collect());
+            bodies.lay_asleep(&asleep.collect::<Vec<_>>());
             let (mut search, mut pairs) = (PairSearch::default(), CandidatePairs::default());
             search.renew(&mut pairs, &bodies, &mut bounds);
             let still = search.still.take().expect("most are asleep");
