@@ -83,7 +83,7 @@ pub struct EstimatedError {
     pub model_until: Option<f64>,
     /// The departure of runs of the other kind, if they go farther than both errors explain.
     pub elsewhere: Option<Elsewhere>,
-    /// How far in metres bodies go in a finer run that rest in this one, if they go farther than their springs give.
+    /// The way in metres, in a finer run, of bodies that rest in this one. `None`: their springs give as much.
     pub restless: Option<f64>,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,
