@@ -220,15 +220,12 @@ impl Part {
     /// Takes up the rates at which accelerations of the bodies change its springs. Friction that slips draws its spring.
     /// Otherwise it sticks. `extents`: the sizes of the bodies in metres. Returns whether its modes agree with the rates.
     pub fn accelerate(&mut self, springs: &PartSprings, accelerations: &[Twist], extents: &[f64]) -> bool {
-        let rate = |spring: &NetworkSpring| {
-            let rate = spring.elongation(accelerations);
-            Some(rate).filter(|rate| rate.abs() > RATE * spring.most(accelerations, extents))
-        };
-        self.parts = rate(&springs.normal);
+        let rate_of = |spring: &NetworkSpring| rate(spring, accelerations, extents);
+        self.parts = rate(&springs.normal, accelerations, extents);
         let approach = self.parts.is_some_and(|parts| parts < 0.0) && self.touches_as_placed();
         let mut agrees = self.now.closed || self.now.overlap <= self.now.noise && !approach;
         for (stretch, spring) in [(&mut self.slid, &springs.tangential), (&mut self.turned, &springs.rolling)] {
-            let rate = spring.as_ref().and_then(rate);
+            let rate = spring.as_ref().and_then(rate_of);
             if stretch.slips && !rate.is_some_and(|rate| rate * stretch.elongation > 0.0) {
                 (stretch.slips, agrees) = (false, false);
             }
@@ -263,6 +260,12 @@ impl Part {
             still: true,
         }
     }
+}
+
+/// The rate at which accelerations of the bodies lengthen a spring. `None`: it is rounding.
+fn rate(spring: &NetworkSpring, accelerations: &[Twist], extents: &[f64]) -> Option<f64> {
+    let rate = spring.elongation(accelerations);
+    Some(rate).filter(|rate| rate.abs() > RATE * spring.most(accelerations, extents))
 }
 
 impl Stretch {
