@@ -167,3 +167,28 @@ fn a_run_whose_springs_come_and_go_takes_up_its_snapshots() {
         assert_eq!(restored.map_err(|why| why.to_string()), Ok(()), "after {tick} ticks");
     }
 }
+
+/// Discs sleep on a floor while another one flies above them. So many are sorted into cells, and the neighbours of the flying one
+/// are searched in the cells of the last search.
+#[test]
+fn a_run_takes_up_its_snapshots_while_most_bodies_sleep() {
+    const COUNT: usize = 1500;
+    let disc = |name: String, x: f64, y: f64| {
+        format!("(name: \"{name}\", at: ({x:?}, {y:?}), material: \"m\", atoms: Disc(radius: 0.1, mass: 1)), ")
+    };
+    let heap: String = (0..COUNT).map(|index| disc(format!("b{index}"), 0.3 * index as f64, 0.1)).collect();
+    let text = format!(
+        "Scene(format: 1, clock: (duration: 1, tick: 0.001), gravity: (0, -9.81), contacts: Penalty(), \
+         materials: {{\"m\": (stiffness: 1e5, restitution: 0.3, friction: 0.5)}}, \
+         walls: [(name: \"floor\", left: (1, 0), right: (0, 0), material: \"m\")], bodies: [{heap}{}])",
+        disc("flies".to_owned(), 4.05, 4.0)
+    );
+    let source = Source::new("sleepers.ron", text);
+    let mut run =
+        Simulation::load_with(&source, &Overrides::default(), |_| {}).unwrap_or_else(|error| panic!("{error}"));
+    run.run_to_tick(run.ticks() / 2).unwrap();
+    assert_eq!((0..=COUNT).filter(|body| run.bodies().is_asleep(*body)).count(), COUNT);
+    for moment in [0.1, 0.3, 0.6, 0.8, 0.95] {
+        assert_eq!(difference(&source, &Overrides::default(), moment), None, "saved at {moment}");
+    }
+}

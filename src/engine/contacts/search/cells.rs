@@ -49,14 +49,15 @@ pub(super) struct Sorted {
 }
 
 impl Sorted {
-    /// Whether all entries are of these bodies, and each cell has its entries.
+    /// Whether all entries are of these bodies, and each cell has its entries. A file has no list of them
+    /// ([`Sorted::without_list`]). Entries in the order of cells make the same cells.
     pub fn fits(&self, bodies: &Bodies) -> bool {
         let Self { all, large, cells } = self;
         let own = |entry: &Entry| {
             let (atom, body) = (entry.atom as usize, entry.body as usize);
             atom < bodies.atom_count() && body < bodies.len() && entry.center.is_finite() && entry.reach.is_finite()
         };
-        all.iter().chain(large).chain(&cells.entries).all(own) && *cells == Cells::of(all)
+        all.is_empty() && large.iter().chain(&cells.entries).all(own) && *cells == Cells::of(&cells.entries)
     }
 
     /// All atoms, each with half of the margin around it.
