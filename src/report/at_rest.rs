@@ -33,14 +33,15 @@ pub(super) fn notes(world: &World) -> Vec<String> {
             number((10.0 * overlap / needed).round() / 10.0)
         ));
     }
-    for ForceBand { between, force, ends: (least, greatest) } in found.bands.iter().copied().take(FEW) {
+    for ForceBand { between, force, springs, ends: (least, greatest) } in found.bands.iter().copied().take(FEW) {
         notes.push(format!(
-            "rest: statics does not determine the normal force between {}. Any from {} to {} N keeps them at rest, and it is {} N, \
-             nearest to the springs",
+            "rest: statics does not determine the normal force between {}. Any from {} to {} N balances the loads beside the present \
+             friction. It is {} N, and the springs alone would give {} N",
             pair(between),
             rounded(least),
             rounded(greatest),
-            rounded(force)
+            rounded(force),
+            rounded(springs)
         ));
     }
     if let Some(more) = found.bands.len().checked_sub(FEW).filter(|more| *more > 0) {

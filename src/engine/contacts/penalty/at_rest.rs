@@ -47,6 +47,8 @@ pub struct ForceBand {
     pub between: (Entity, Entity),
     /// The force that acts, in newtons.
     pub force: f64,
+    /// The force of the springs alone at these overlaps, in newtons.
+    pub springs: f64,
     /// The least and the greatest force in newtons that balance the same loads.
     pub ends: (f64, f64),
 }
@@ -66,6 +68,8 @@ struct Held {
     between: (Entity, Entity),
     row: NetworkSpring,
     force: f64,
+    /// The force of the spring alone.
+    spring: f64,
     band: (f64, f64),
     needed: f64,
 }
@@ -115,6 +119,7 @@ fn find(contacts: &PenaltyContacts, (bodies, pairs): (&Bodies, &CandidatePairs))
             between: geometry.pair.entities(bodies),
             row: NetworkSpring { ends, stiffness: 1.0 },
             force: contact.normal_force,
+            spring: law.stiffness * contact.overlap,
             band,
             needed: contact.normal_force / law.stiffness,
         });
@@ -147,9 +152,10 @@ fn bands(held: &[Held], joints: &[NetworkSpring], count: usize) -> Vec<ForceBand
         };
         let present: Vec<f64> = held.iter().map(|held| held.force).collect();
         let [least, greatest] = [-1.0, 1.0].map(|sign| sum(&extreme((held, joints), held_pair, sign, count)));
-        let force = sum(&present);
+        let springs: Vec<f64> = held.iter().map(|held| held.spring).collect();
+        let (force, springs) = (sum(&present), sum(&springs));
         if greatest - least > ROUNDING * greatest.abs() {
-            found.push(ForceBand { between: held_pair, force, ends: (least, greatest) });
+            found.push(ForceBand { between: held_pair, force, springs, ends: (least, greatest) });
         }
     }
     found
