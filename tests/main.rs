@@ -6,4 +6,5 @@ mod cli;
 mod determinism;
 mod extend;
 mod laws;
+mod part;
 mod scenes;

@@ -7,6 +7,7 @@
 use super::impact::{Impact, Tangential};
 use super::ran::{Ran, end, run};
 use super::{crowd, draw};
+use crate::part;
 
 /// Impacts of which each is run under three methods, and of which one in eight is run under all.
 const IMPACTS: u64 = 1000;
@@ -27,7 +28,7 @@ fn error(ran: &Ran, impact: &Impact) -> Option<f64> {
 fn impacts_are_those_of_the_reference() {
     let limits = [(", method: Dop853", 1e-9), (", tolerance: 1e-6", 1e-5), (", tolerance: 1e-4", 1e-3)];
     let (mut wrong, mut solved) = (Vec::new(), 0);
-    for seed in 0..IMPACTS {
+    for seed in part::of(0..IMPACTS) {
         let drawn = draw::impact(seed);
         if drawn.impact.solve().is_err() {
             continue;
@@ -45,7 +46,7 @@ fn impacts_are_those_of_the_reference() {
             }
         }
     }
-    assert!(solved > 9 * IMPACTS / 10, "only {solved} of {IMPACTS} impacts have a solution");
+    assert!(solved > part::least(9 * IMPACTS as usize / 10), "only {solved} of {IMPACTS} impacts have a solution");
     assert!(wrong.is_empty(), "{} wrong:\n{}", wrong.len(), wrong.join("\n"));
 }
 
@@ -63,7 +64,7 @@ fn methods_agree_with_the_reference() {
         ("SemiImplicitEuler", 2e-2),
     ];
     let mut wrong = Vec::new();
-    for seed in (0..IMPACTS).step_by(8) {
+    for seed in part::of((0..IMPACTS).step_by(8)) {
         let drawn = draw::impact(seed);
         for (method, limit) in methods {
             let by_ticks = !method.contains("Located") && method != "RungeKutta4" && limit > 1e-2;
@@ -86,7 +87,7 @@ fn methods_agree_with_the_reference() {
 #[test]
 fn runs_of_several_bodies_agree() {
     let (mut wrong, mut compared) = (Vec::new(), 0);
-    for seed in 0..SCENES {
+    for seed in part::of(0..SCENES) {
         let scene = crowd::scene(seed);
         let two = [", tolerance: 1e-10", ", method: RungeKutta4, tick: 5e-5"].map(|clock| run(&scene.with(clock), 1));
         let [first, second] = two.map(|ran| ran.unwrap_or_else(|why| panic!("{seed}: {why}")));
@@ -98,7 +99,7 @@ fn runs_of_several_bodies_agree() {
             wrong.push(format!("{seed}: {apart:e} apart, {own:e} and {other:e} stated"));
         }
     }
-    assert!(compared > SCENES / 2, "{compared} of {SCENES} state their error to the end");
+    assert!(compared > part::least(SCENES as usize / 2), "{compared} of {SCENES} state their error to the end");
     assert!(wrong.is_empty(), "{}", wrong.join("\n"));
 }
 

@@ -11,6 +11,7 @@ use jostle::simulation::Overrides;
 use jostle::{Simulation, world::hash::state_hash};
 
 use super::pinned::{compare, in_repository};
+use crate::part;
 
 /// Ways in which each scene is run: a word, method and tolerance.
 pub(super) const WAYS: [(&str, Option<&str>, Option<f64>); 4] = [
@@ -82,7 +83,7 @@ fn hash(path: &Path, method: Option<&str>, tolerance: Option<f64>) -> Option<Str
 
 #[test]
 fn scenes_end_in_the_hashes_that_are_written_down_under_every_kind_of_method() {
-    let scenes = scenes();
+    let scenes = part::of(scenes());
     let mut new = BTreeMap::new();
     for path in &scenes {
         let name = path.file_stem().unwrap().to_str().unwrap();
@@ -92,6 +93,7 @@ fn scenes_end_in_the_hashes_that_are_written_down_under_every_kind_of_method() {
             }
         }
     }
-    assert!(new.values().filter(|hash| hash.len() == 16).count() > 60, "{new:?}");
-    compare("pinned_methods", &new);
+    assert!(new.values().filter(|hash| hash.len() == 16).count() > part::least(60), "{new:?}");
+    let names: Vec<&str> = scenes.iter().map(|path| path.file_stem().unwrap().to_str().unwrap()).collect();
+    compare("pinned_methods", &new, |name| name.split('/').next().is_some_and(|scene| names.contains(&scene)));
 }

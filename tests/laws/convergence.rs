@@ -27,6 +27,7 @@ use jostle::integrate::Description;
 use jostle::problems::{self, EventTiming, Expected, Problem};
 
 use super::support::{fitted_order, rms_error, table};
+use crate::part;
 
 /// Points of a fit.
 const POINTS: usize = 6;
@@ -110,7 +111,7 @@ fn every_method_shows_its_order(share: usize, of: usize) {
         .flat_map(|(problem, method)| problem.timings(method).into_iter().map(move |events| (problem, method, events)));
     let mut report = Vec::new();
     let mut failed = false;
-    for (problem, method, events) in combinations.skip(share).step_by(of) {
+    for (problem, method, events) in part::of(combinations.skip(share).step_by(of)) {
         let (good, line) = judge(problem, method, events);
         failed |= !good;
         report.push(format!("{} {line}", if good { "   " } else { "BAD" }));

@@ -13,6 +13,7 @@ use jostle::integrate::Description;
 use jostle::problems::{self, EventTiming, Expected, Problem, Truth};
 
 use super::support::{assert_near, errors_at, fitted_order, rms_error};
+use crate::part;
 
 /// The greatest factor between an error and what the table says.
 const FACTOR: f64 = 1.5;
@@ -106,7 +107,7 @@ fn errors_are_those_of_the_table(share: usize, of: usize) {
         .flat_map(|(problem, method)| problem.timings(method).into_iter().map(move |events| (problem, method, events)));
     let mut report = Vec::new();
     let mut failed = false;
-    for (problem, method, events) in combinations.skip(share).step_by(of) {
+    for (problem, method, events) in part::of(combinations.skip(share).step_by(of)) {
         let (good, line) = compare(problem, method, events);
         failed |= !good;
         report.push(format!("{} {line}", if good { "   " } else { "BAD" }));
