@@ -18,7 +18,7 @@ use jostle::scene::Source;
 use jostle::simulation::Overrides;
 use jostle::{Simulation, SimulationExt};
 
-const GRAVITY: f64 = 9.81;
+pub(super) const GRAVITY: f64 = 9.81;
 
 /// The default, and two ways with located events.
 fn ways() -> [(&'static str, Overrides); 3] {
@@ -32,7 +32,7 @@ fn load(text: &str, overrides: &Overrides) -> Simulation {
 }
 
 /// A scene of `duration` seconds with one material.
-fn scene(contacts: &str, material: &str, things: &str, duration: f64) -> String {
+pub(super) fn scene(contacts: &str, material: &str, things: &str, duration: f64) -> String {
     format!(
         "Scene(format: 1, clock: (duration: {duration:?}), gravity: (0, -{GRAVITY:?}), contacts: Penalty({contacts}), \
          materials: {{\"m\": ({material})}}, {things})"
@@ -40,7 +40,7 @@ fn scene(contacts: &str, material: &str, things: &str, duration: f64) -> String 
 }
 
 /// A wall through the origin that rises to the right with an angle, and a body of mass 1 that stands on it at 3 m.
-fn on_slope(angle: f64, half: f64, shape: &str) -> String {
+pub(super) fn on_slope(angle: f64, half: f64, shape: &str) -> String {
     let along = DVec2::new(libm::cos(angle), libm::sin(angle));
     let (end, at) = (along * 100.0, along * 3.0 + along.perp() * half);
     format!(
@@ -192,4 +192,29 @@ fn the_card_says_by_how_much_the_start_moved_bodies() {
     let notes = simulation.card().notes;
     let told = notes.iter().filter(|note| note.starts_with("start: ") && note.contains("`a` by")).count();
     assert_eq!(told, 1, "{notes:?}");
+}
+
+/// Law: a sharp corner has no rolling radius, so rolling resistance gives a box no torque. It rests or slides as it does without.
+/// Tolerances: those of the rest and the slide above.
+#[test]
+fn rolling_resistance_changes_nothing_for_boxes() {
+    for contacts in ["rolling: Spring(friction: 0.1)", "normal: Dashpot, rolling: Spring(friction: 0.1)"] {
+        for restitution in [0.1, 0.5, 0.9] {
+            for friction in [0.3, 0.9] {
+                let material = format!("stiffness: 1e6, restitution: {restitution:?}, friction: {friction:?}");
+                let things = on_slope(0.5, 0.1, "shape: Rectangle(width: 0.5, height: 0.2)");
+                let text = scene(contacts, &material, &things, 0.3);
+                for (way, overrides) in ways() {
+                    let mut simulation = load(&text, &overrides);
+                    let begin = simulation.bodies().position[0];
+                    simulation.run_to_end().unwrap_or_else(|failure| panic!("{way}: {failure}\n{text}"));
+                    let slides = GRAVITY * (libm::sin(0.5) - friction * libm::cos(0.5));
+                    let exact = 0.5 * slides.max(0.0) * 0.3 * 0.3;
+                    let found = begin.distance(simulation.bodies().position[0]);
+                    let allowed = 1e-6 * exact + 1e-6 * GRAVITY / 1e6;
+                    assert!((found - exact).abs() <= allowed, "{way}: {found} instead of {exact}\n{text}");
+                }
+            }
+        }
+    }
 }

@@ -14,12 +14,11 @@
 
 use std::fmt::Write;
 
-use glam::DVec2;
 use jostle::Simulation;
 use jostle::scene::Source;
 use jostle::simulation::Overrides;
 
-const GRAVITY: f64 = 9.81;
+use super::begins_at_rest::{GRAVITY, on_slope, scene};
 
 /// The share of forces that the search for the start may leave, ten times.
 const SEARCH: f64 = 1e-6;
@@ -38,24 +37,6 @@ fn ways() -> [Overrides; 4] {
 
 /// Laws of contacts, stiffnesses in N/m, restitutions.
 const LAWS: [(&str, f64, f64); 4] = [("", 1e5, 0.3), ("normal: Dashpot", 1e5, 0.5), ("", 1e7, 0.0), ("", 1e6, 1.0)];
-
-fn scene(contacts: &str, material: &str, things: &str, duration: f64) -> String {
-    format!(
-        "Scene(format: 1, clock: (duration: {duration:?}), gravity: (0, -{GRAVITY:?}), contacts: Penalty({contacts}), \
-         materials: {{\"m\": ({material})}}, {things})"
-    )
-}
-
-/// A slope through the origin that rises to the right, and a body of 1 kg that stands on it at 3 m.
-fn on_slope(angle: f64, half: f64, shape: &str) -> String {
-    let along = DVec2::new(libm::cos(angle), libm::sin(angle));
-    let (end, at) = (along * 100.0, along * 3.0 + along.perp() * half);
-    format!(
-        "walls: [(name: \"ramp\", left: ({:?}, {:?}), right: ({:?}, {:?}), material: \"m\")], \
-         bodies: [(name: \"a\", at: ({:?}, {:?}), angle: {angle:?}, mass: 1, material: \"m\", {shape})]",
-        end.x, end.y, -end.x, -end.y, at.x, at.y
-    )
-}
 
 /// Runs to the end. Returns the way of the first body from its place at the beginning, and its turn.
 fn moved(text: &str, overrides: &Overrides) -> (f64, f64) {

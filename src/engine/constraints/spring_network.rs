@@ -54,9 +54,12 @@ const HELD: f64 = 1e-8;
 const SINGULAR: f64 = 1e-13;
 
 /// Springs to the ground are weaker than the others by this factor when they tell the free directions. Two of them leave an
-/// error of its square in accelerations, and rounding is the greater by its inverse. Displacements lack a share of it, which
-/// Newton's method finds in the next round.
+/// error of its square in accelerations, and rounding is the greater by its inverse. The sum of both is least at the third root of
+/// rounding, 6e-6. Displacements lack a share of it, so it is less. Newton's method finds that share in the next round.
 const WEAK: f64 = 1e-6;
+
+/// Accelerations that springs ought to prevent are rounding up to this share of all.
+pub const FREE: f64 = 4.0 * f64::EPSILON / WEAK;
 
 /// A direction that springs resist by less than this share of their stiffness is free. The square of rounding is far
 /// below it, and the softest wave through a thousand bodies far above.

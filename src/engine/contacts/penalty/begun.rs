@@ -36,7 +36,8 @@ pub(super) struct Begun {
     /// In newtons.
     pub normal_force: f64,
     pub tangential: Drawn,
-    pub rolling: Drawn,
+    /// `None`: sharp sides have no rolling radius, and so no spring.
+    pub rolling: Option<Drawn>,
     /// Whether no side slides or rolls over the other.
     pub still: bool,
 }
@@ -87,7 +88,7 @@ pub(super) fn take_over<N: NormalForce>(
             },
         };
         list.set(index, &contact);
-        if let Some(sliders) = sliders {
+        if let (Some(sliders), Some(turned)) = (sliders, turned) {
             sliders[index] = drawn(turned, still && rests);
         }
     }

@@ -33,7 +33,7 @@ pub(super) fn evaluate<N: NormalForce>(
             let geometry = PairGeometry::atoms(sink.bodies, index, pair);
             let mut contact = atoms.edit(index);
             let law = laws.get(contact.law);
-            let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&geometry, law));
+            let roller = rolling.as_deref_mut().and_then(|rolling| rolling.of(&geometry, law));
             stage::<N>((&mut contact, law, roller), &geometry, mode, sink, (held, rows));
         }
     }
@@ -42,7 +42,7 @@ pub(super) fn evaluate<N: NormalForce>(
             let geometry = PairGeometry::surface(sink.bodies, index, pair);
             let mut contact = surfaces.edit(index);
             let law = laws.get(contact.law);
-            let roller = rolling.as_deref_mut().map(|rolling| rolling.of(&geometry, law));
+            let roller = rolling.as_deref_mut().and_then(|rolling| rolling.of(&geometry, law));
             stage::<N>((&mut contact, law, roller), &geometry, mode, sink, (held, rows));
         }
     }
@@ -60,7 +60,7 @@ pub(super) fn take_rows(
         let list = if geometry.pair.listed() == Listed::Atoms { &mut *atoms } else { &mut *surfaces };
         let mut contact = list.edit(geometry.pair.index as usize);
         let law = laws.get(contact.law);
-        let roller = rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law));
+        let roller = rolling.as_deref_mut().and_then(|rolling| rolling.of(geometry, law));
         let (normal, tangent_force) = match (kind, roller) {
             (HeldPart::Rolling, roller) => {
                 if let Some((slider, rolling_law)) = roller {

@@ -179,7 +179,8 @@ impl Near<'_> {
         let mut give = |named: Named, geometry: &PairGeometry, (a, b): (PairSide, PairSide), size: f64| {
             let index = laws.index::<N>(a, b, materials, settings);
             let law = *laws.get(index);
-            let rolls = rolling.as_ref().map(|rolling| rolling.law(&law, geometry.pair.other_end(), &geometry.pair.b));
+            let rolls =
+                rolling.as_ref().and_then(|rolling| rolling.law(&law, geometry.pair.other_end(), &geometry.pair.b));
             let touch = touch_gap(geometry, TOUCHES * size, bodies);
             take(Candidate { named, geometry, law, rolls, touch });
         };

@@ -6,7 +6,7 @@ use super::begun::{Begun, Drawn, Named};
 use super::coulomb::SliderLaw;
 use super::pair_law::PairLaw;
 use crate::constraints::islands::IslandLink;
-use crate::constraints::spring_network::{NetworkEnd, NetworkSpring, Twist};
+use crate::constraints::spring_network::{FREE, NetworkEnd, NetworkSpring, Twist};
 use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
 use crate::tick::SteadySpring;
@@ -17,9 +17,6 @@ const OF_CONE: f64 = 1.0 - 1e-3;
 
 /// Rounding of a place, as a share of its coordinates.
 const NOISE: f64 = 4.0 * f64::EPSILON;
-
-/// Rates at which springs change below this share of what accelerations could make are rounding.
-const RATE: f64 = 1e-9;
 
 /// A pair near members of an island.
 pub(super) struct Part {
@@ -152,7 +149,7 @@ impl Part {
             overlap: self.began,
             normal_force: self.law.stiffness * self.began,
             tangential: Drawn::default(),
-            rolling: Drawn::default(),
+            rolling: self.rolls.map(|_| Drawn::default()),
             still: self.still,
         })
     }
@@ -171,11 +168,11 @@ impl Part {
 
     /// Its springs, whether it touches or not.
     pub fn springs(&self, sides: &Sides, normal: DVec2) -> PartSprings {
-        let (slides, rolls) = (self.law.tangential(), self.rolls.filter(SliderLaw::acts));
+        let slides = self.law.tangential();
         PartSprings {
             normal: sides.along(normal, self.law.stiffness),
             tangential: slides.acts().then(|| sides.along(normal.perp(), slides.stiffness)),
-            rolling: rolls.map(|rolls| sides.turning(rolls.stiffness)),
+            rolling: self.rolls.map(|rolls| sides.turning(rolls.stiffness)),
         }
     }
 
@@ -256,7 +253,7 @@ impl Part {
             overlap: self.now.overlap,
             normal_force: self.now.normal,
             tangential,
-            rolling: drawn(&self.turned, self.now.rolling),
+            rolling: self.rolls.map(|_| drawn(&self.turned, self.now.rolling)),
             still: true,
         }
     }
@@ -265,7 +262,7 @@ impl Part {
 /// The rate at which accelerations of the bodies lengthen a spring. `None`: it is rounding.
 fn rate(spring: &NetworkSpring, accelerations: &[Twist], extents: &[f64]) -> Option<f64> {
     let rate = spring.elongation(accelerations);
-    Some(rate).filter(|rate| rate.abs() > RATE * spring.most(accelerations, extents))
+    Some(rate).filter(|rate| rate.abs() > FREE * spring.most(accelerations, extents))
 }
 
 impl Stretch {

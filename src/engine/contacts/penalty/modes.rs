@@ -192,7 +192,7 @@ impl Choice<'_> {
     /// The rolling spring of a contact as it is, with its law, in scenes that have rolling friction.
     fn slider(&self, case: &ContactSides, pair: &PairLaw) -> Option<(Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref()?;
-        let law = rolling.law(pair, case.other_end(), &case.b);
+        let law = rolling.law(pair, case.other_end(), &case.b)?;
         let list = if case.listed() == Listed::Atoms { &rolling.atoms } else { &rolling.surfaces };
         Some((list[case.index as usize], law))
     }
@@ -200,7 +200,7 @@ impl Choice<'_> {
     /// The rolling spring of a contact with its law, in scenes that have rolling friction.
     fn roller(&mut self, case: &ContactSides, pair: &PairLaw) -> Option<(&mut Slider, SliderLaw)> {
         let rolling = self.rolling.as_deref_mut()?;
-        let law = rolling.law(pair, case.other_end(), &case.b);
+        let law = rolling.law(pair, case.other_end(), &case.b)?;
         let list = if case.listed() == Listed::Atoms { &mut rolling.atoms } else { &mut rolling.surfaces };
         Some((&mut list[case.index as usize], law))
     }

@@ -41,16 +41,17 @@ impl RollingContacts {
         Self { friction, ratio, ..Self::default() }
     }
 
-    /// The law of a pair: torques in N m over angles in radians.
+    /// The law of a pair: torques in N m over angles in radians. `None`: sharp sides have no rolling radius, and so no spring.
     #[inline]
-    pub(super) fn law(&self, pair: &PairLaw, a: Option<&ContactEnd>, b: &ContactEnd) -> SliderLaw {
+    pub(super) fn law(&self, pair: &PairLaw, a: Option<&ContactEnd>, b: &ContactEnd) -> Option<SliderLaw> {
         let radius = rolling_radius(a, b);
         let coefficient = self.friction * radius;
-        SliderLaw {
+        let law = SliderLaw {
             stiffness: stiffness(self.ratio, pair.stiffness, radius),
             friction_static: coefficient,
             friction_dynamic: coefficient,
-        }
+        };
+        Some(law).filter(SliderLaw::acts)
     }
 
     /// Gives every pair of a new list its spring, with its history if it had one.
@@ -69,13 +70,15 @@ impl RollingContacts {
             pairs.atoms.iter().zip(self.atoms.iter().zip(contacts.atoms.iter()))
         {
             let (a, b) = (ContactEnd::of(bodies, a), ContactEnd::of(bodies, b));
-            energy += slider.energy(&self.law(contacts.laws.get(contact.law), Some(&a), &b));
+            let law = self.law(contacts.laws.get(contact.law), Some(&a), &b);
+            energy += law.map_or(0.0, |law| slider.energy(&law));
         }
         for (index, (&pair, (slider, contact))) in
             pairs.surfaces.iter().zip(self.surfaces.iter().zip(contacts.surfaces.iter())).enumerate()
         {
             let pair = PairGeometry::surface(bodies, index, pair).pair;
-            energy += slider.energy(&self.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b));
+            let law = self.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b);
+            energy += law.map_or(0.0, |law| slider.energy(&law));
         }
         energy
     }
@@ -167,7 +170,7 @@ pub(super) fn apply(
         if contact.mode != Mode::Open || *slider != Slider::default() {
             let AtomPair { a, b } = pairs.atoms[index];
             let (a, b) = (ContactEnd::of(follow.bodies, a), ContactEnd::of(follow.bodies, b));
-            let law = rolling.law(contacts.laws.get(contact.law), Some(&a), &b);
+            let Some(law) = rolling.law(contacts.laws.get(contact.law), Some(&a), &b) else { continue };
             follow.pair(slider, &law, &contact, Some(&a), &b);
         }
     }
@@ -178,7 +181,7 @@ pub(super) fn apply(
         }
         if contact.mode != Mode::Open || *slider != Slider::default() {
             let pair = PairGeometry::surface(follow.bodies, index, pairs.surfaces[index]).pair;
-            let law = rolling.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b);
+            let Some(law) = rolling.law(contacts.laws.get(contact.law), pair.other_end(), &pair.b) else { continue };
             follow.pair(slider, &law, &contact, pair.other_end(), &pair.b);
         }
     }

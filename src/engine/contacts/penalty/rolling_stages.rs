@@ -20,12 +20,12 @@ use crate::world::Bodies;
 pub(super) type Roller<'a> = (&'a mut Slider, SliderLaw);
 
 impl RollingContacts {
-    /// The spring of a contact.
-    pub(super) fn of(&mut self, geometry: &PairGeometry, pair: &PairLaw) -> Roller<'_> {
+    /// The spring of a contact, if it has one.
+    pub(super) fn of(&mut self, geometry: &PairGeometry, pair: &PairLaw) -> Option<Roller<'_>> {
         let other = geometry.pair.other_end();
-        let law = self.law(pair, other, &geometry.pair.b);
+        let law = self.law(pair, other, &geometry.pair.b)?;
         let list = if geometry.pair.listed() == Listed::Atoms { &mut self.atoms } else { &mut self.surfaces };
-        (&mut list[geometry.pair.index as usize], law)
+        Some((&mut list[geometry.pair.index as usize], law))
     }
 }
 

@@ -80,7 +80,7 @@ impl View<'_> {
         let count = atoms.len();
         let contact = if index < count { atoms.edit(index) } else { surfaces.edit(index - count) };
         let law = laws.get(contact.law);
-        (contact, law, self.rolling.as_deref_mut().map(|rolling| rolling.of(geometry, law)))
+        (contact, law, self.rolling.as_deref_mut().and_then(|rolling| rolling.of(geometry, law)))
     }
 
     pub fn contact(&mut self, index: usize) -> (Edited<'_>, &PairLaw) {
