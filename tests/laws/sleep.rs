@@ -275,10 +275,10 @@ fn struck(support: &str, block: &str) -> String {
     )
 }
 
-/// Promise: who sleeps is not looked at for crossings until it wakes, and then as ever. What is driven through its support out of its sleep
-/// ends the run in the tick, and with the words, of a run in which nobody sleeps.
+/// Promise: a sleeping body is not looked at for crossings until it wakes, and then as ever. A block is driven through its support out
+/// of its sleep. The run ends in the same tick, and with the same words, as a run without sleep.
 #[test]
-fn what_wakes_and_passes_through_its_support_ends_the_run() {
+fn a_block_that_wakes_and_passes_through_its_support_ends_the_run() {
     let plate = "bodies: [(name: \"support\", fixed: true, at: (3, -0.009), material: \"stone\", shape: Rectangle(width: 9, height: 0.02)),";
     let strip = "walls: [(name: \"support\", from: (-1, 0), to: (8, 0), material: \"stone\")], bodies: [";
     let blocks = ["shape: Rectangle(width: 0.1, height: 0.1)", "atoms: Disc(radius: 0.05)"];
@@ -317,10 +317,10 @@ fn two_rows() -> String {
     )
 }
 
-/// Promise: rest ends in one tick for all whom contacts connect to a body that moves, through others at rest. It ends for no one else, and not
-/// beyond a body that is fixed.
+/// Promise: rest ends in one tick for all bodies that contacts connect to a body that moves, through others at rest. The other bodies
+/// rest on, and so do those beyond a body that is fixed.
 #[test]
-fn a_blow_wakes_at_once_all_whom_contacts_connect_and_no_others() {
+fn a_blow_wakes_at_once_all_bodies_that_contacts_connect_and_no_others() {
     let mut simulation = load(&two_rows());
     let asleep = |simulation: &Simulation, row: usize| {
         let bodies = simulation.bodies();
@@ -334,8 +334,8 @@ fn a_blow_wakes_at_once_all_whom_contacts_connect_and_no_others() {
         simulation.run_to_tick(*tick).expect("numbers stay finite");
         asleep(&simulation, 0) < 40
     });
-    assert!(tick.is_some(), "the ball woke nobody");
-    assert!(asleep(&simulation, 0) > 38, "who was not touched woke before the search");
+    assert!(tick.is_some(), "the ball woke no disc");
+    assert!(asleep(&simulation, 0) > 38, "discs woke that the ball did not touch, before the search");
     simulation.run_to_tick(tick.unwrap() + 1).expect("numbers stay finite");
     assert_eq!([asleep(&simulation, 0), asleep(&simulation, 1)], [0, 40]);
 }
