@@ -102,7 +102,7 @@ pub use stability::{Briefest, Fastest, Foreseen, Holder, Stability, TimeScales};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};
-pub use travel::{FarTravel, far_travel, largest_travel, stands};
+pub use travel::{FarTravel, STANDS, far_travel, largest_travel, stands};
 pub use undo::Undo;
 pub use work::work_of_an_evaluation;
 

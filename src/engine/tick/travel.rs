@@ -24,7 +24,7 @@ pub fn largest_travel(state: &State) -> f64 {
 }
 
 /// A way in the whole run below this share of the smallest radius is no motion. Forces that cancel leave rounding.
-const STANDS: f64 = 1e-9;
+pub const STANDS: f64 = 1e-9;
 
 /// Whether all bodies have been at rest so far. Before the first tick that is unknown.
 pub fn stands(state: &State) -> bool {

@@ -24,7 +24,7 @@ use jostle_engine::scene::SceneErrors;
 use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use jostle_engine::simulation::{Overrides, Plan};
-use jostle_engine::tick::{State, stands};
+use jostle_engine::tick::{STANDS, State, stands};
 use jostle_language::numbers::number;
 pub use other_kind::Elsewhere;
 use twins::{Finer, Told};
@@ -37,8 +37,6 @@ const MOST_NUMBERS: u64 = 6_000_000;
 const GOLDEN: f64 = 0.618_033_988_749_894_9;
 /// Share of the motion from which positions count as wrong.
 const PARTED: f64 = 1e-2;
-/// Ways of bodies at rest below this share of the smallest radius are rounding.
-const STILL: f64 = 1e-9;
 /// Fewer moments show no growth.
 const FEWEST_MOMENTS: usize = 4;
 
@@ -280,7 +278,7 @@ fn discretisation(
     let state = simulation.resource::<State>();
     if stands(state) {
         // Bodies at rest go nowhere, so no difference is a share of their way. Springs that give make some of it.
-        let gives = state.deepest_overlap().in_meters.overlap.max(STILL * state.bodies().smallest_radius);
+        let gives = state.deepest_overlap().in_meters.overlap.max(STANDS * state.bodies().smallest_radius);
         found.restless = Some(told.distance).filter(|distance| *distance > gives);
         (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);
     }
