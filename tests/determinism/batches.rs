@@ -153,3 +153,13 @@ fn discs_in_flight_are_the_same_in_any_batches_and_with_any_sensor() {
         assert!(demand_same("bits.ron", &text, path.parent().unwrap(), &overrides) == SENSORS.len());
     }
 }
+
+/// A thrust changes forces at the begin of a tick, when the last kick of the tick before may still wait.
+#[test]
+fn a_thrust_that_begins_and_ends_is_the_same_in_any_batches_and_with_any_sensor() {
+    let text = "Scene(format: 1, clock: (duration: 0.05, tick: 0.0005), gravity: (0, -9.81),
+        materials: {\"m\": (stiffness: 4e4, friction: 0.3)}, walls: [(name: \"floor\", left: (9, 0), right: (-9, 0), material: \"m\")],
+        bodies: [(name: \"b\", at: (0, 0.5), material: \"m\", mass: 3, atoms: Disc(radius: 0.5))],
+        forces: [Thrust(of: \"b\", force: (9, 4), frame: Body, from: 0.0103, to: 0.0301)])";
+    assert!(demand_same("thrust.ron", text, &in_repository("scenes"), &Overrides::default()) > 0);
+}

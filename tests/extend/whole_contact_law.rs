@@ -199,6 +199,11 @@ impl Model for Whole {
         true
     }
 
+    fn begins_with_velocities(&self) -> bool {
+        self.called("begins_with_velocities");
+        true
+    }
+
     fn finds_pairs(&self) -> bool {
         self.called("finds_pairs");
         true

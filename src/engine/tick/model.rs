@@ -160,6 +160,12 @@ pub trait Model: Any + Send + Sync {
         false
     }
 
+    /// Whether [`Model::begin_step`] reads velocities or changes forces. The last kick of the tick before is then applied first. It
+    /// may still wait to be applied together with the first one of this tick. Default: yes.
+    fn begins_with_velocities(&self) -> bool {
+        true
+    }
+
     /// Whether [`Model::find_pairs`] does anything. Default: no.
     fn finds_pairs(&self) -> bool {
         false

@@ -161,6 +161,9 @@ impl State {
                 let is_law = self.outside.law_of(&**model).is_some();
                 self.turn_to(if is_law { TickPart::Rest } else { TickPart::Modes });
             }
+            if model.begins_with_velocities() {
+                self.bodies.catch_up();
+            }
             model.begin_step(self);
         });
         self.turn_to(TickPart::Integrate);

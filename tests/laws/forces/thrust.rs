@@ -42,6 +42,29 @@ fn the_card_says_what_comes_of_times_between_ticks() {
     assert!(close(speed, 0.3), "{speed}");
 }
 
+/// `v = F t/m` from one tick to another, by a force that nothing else accompanies: each tick in it has both of its half kicks, and no
+/// other one has any. Tolerance: rounding of a thousand kicks.
+#[test]
+fn a_thrust_acts_in_its_ticks_and_in_no_half_more() {
+    for (from, to) in [(0.3_f64, 0.7_f64), (0.0, 0.7), (0.001, 0.002), (0.4, 9.0)] {
+        for method in ["VelocityVerlet", "SemiImplicitEuler", "RungeKutta4", "Dop853"] {
+            let scene = format!(
+                "Scene(format: 1, clock: (duration: 1, tick: \"1 ms\", method: {method}),
+                bodies: [(name: \"b\", at: (0, 0), mass: 1, atoms: Disc(radius: 0.1))],
+                forces: [Thrust(of: \"b\", force: (1000, 0), from: {from:?}, to: {to:?})])"
+            );
+            let mut simulation = Simulation::load(&Source::new("thrust.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+            simulation.run_to_end().unwrap();
+            let acted = to.min(1.0) - from;
+            let (speed, way) = (simulation.bodies().velocity[0].x, simulation.bodies().position[0].x);
+            assert!((speed - 1000.0 * acted).abs() < 1e-9, "{method}, {from} to {to}: {speed}");
+            let exact = 1000.0 * acted * (0.5 * acted + (1.0 - to).max(0.0));
+            let whole_kicks = if method == "SemiImplicitEuler" { 0.5 * acted } else { 1e-9 };
+            assert!((way - exact).abs() <= whole_kicks + 1e-9, "{method}, {from} to {to}: {way} for {exact}");
+        }
+    }
+}
+
 /// Times on ticks, as far as decimal fractions can be, and times that the run does not come to.
 #[test]
 fn times_on_ticks_are_not_warned_of() {

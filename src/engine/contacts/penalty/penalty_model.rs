@@ -134,6 +134,11 @@ impl<N: NormalForce> Model for Contacts<N> {
         true
     }
 
+    /// It applies the kick that waits itself, and only if a contact may change.
+    fn begins_with_velocities(&self) -> bool {
+        false
+    }
+
     fn begin_step(&mut self, state: &mut State) {
         let State { bodies, rates, ledger, evaluation, rows, clock, span, pairs: Some(pairs), .. } = state else {
             return;

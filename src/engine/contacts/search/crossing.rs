@@ -113,6 +113,10 @@ impl Model for Crossings {
         true
     }
 
+    fn begins_with_velocities(&self) -> bool {
+        false
+    }
+
     /// Between ticks others may have put bodies elsewhere.
     fn begin_step(&mut self, state: &mut State) {
         if state.span.begin > state.clock.time() {

@@ -105,6 +105,10 @@ impl Model for Walks {
         true
     }
 
+    fn begins_with_velocities(&self) -> bool {
+        false
+    }
+
     fn begin_step(&mut self, state: &mut State) {
         let State { bodies, bounds: Some(bounds), pairs: Some(pairs), .. } = state else { return };
         let mut now = Vec::new();
