@@ -27,5 +27,6 @@ mod reading_cost;
 mod releases;
 mod soft_contacts;
 mod statements;
+mod stops_together;
 mod supports_that_start;
 mod tolerances;

@@ -152,6 +152,11 @@ impl Control {
         self.allowance.most_steps
     }
 
+    /// The error of velocities in m/s that the last step was allowed.
+    pub fn velocity_error(&self) -> f64 {
+        self.allowed
+    }
+
     /// Counts the error that the last step was allowed. Rounding of places may have made it larger than was asked for.
     pub fn count(&self, count: &mut StepCount) {
         count.allowed += self.allowed;

@@ -415,7 +415,8 @@ impl EventStepper {
         if !made.fired.is_empty() {
             self.forget();
         }
-        tick.end_step(&made.fired);
+        let velocity_error = self.control.as_ref().map_or(0.0, Control::velocity_error);
+        tick.end_step(&made.fired, velocity_error);
     }
 
     /// Shows the state at the end of the tick, inside a step that extends beyond it.

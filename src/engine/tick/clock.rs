@@ -58,6 +58,9 @@ pub struct Evaluation {
     /// bodies move on.
     #[serde(skip)]
     pub(crate) kick: bool,
+    /// While events of a step switch modes: the error of velocities in m/s that the step was allowed. 0 if the method estimates none.
+    #[serde(skip)]
+    pub(crate) velocity_error: f64,
     /// The state that was evaluated last is evaluated once more, with those awake that were left out.
     pub(crate) again: bool,
 }

@@ -251,8 +251,9 @@ impl Tick<'_> {
 
     /// Called after a step was accepted and its last state evaluated. Modes whose indicators vanished change, and the
     /// state is ready for the next step.
-    pub fn end_step(&mut self, fired: &[usize]) {
+    pub fn end_step(&mut self, fired: &[usize], velocity_error: f64) {
         let time = self.state.evaluation.time;
+        self.state.evaluation.velocity_error = velocity_error;
         if !fired.is_empty() {
             let told = std::mem::take(&mut self.state.progress.told);
             let (mut first, mut counts) = (0, told.iter());

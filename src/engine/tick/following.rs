@@ -20,7 +20,7 @@ impl Tick<'_> {
         self.change_mode(mode);
         self.begin_anew();
         // The cost of the change is booked.
-        self.end_step(&[]);
+        self.end_step(&[], 0.0);
     }
 
     fn change_mode(&mut self, mode: EvaluationMode) {

@@ -5,7 +5,8 @@ use super::coulomb::{Grip, Slider, SliderLaw};
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling_stages;
-use super::switching::{Base, View, standing};
+use super::standing;
+use super::switching::{Base, View, standing_mode};
 use crate::constraints::HOLDS;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
@@ -38,7 +39,7 @@ impl View<'_> {
             || self.settle_unheld()
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)
             || self.settle_friction::<N>(|grip| grip == Grip::Hold)
-            || self.hold_again();
+            || self.hold_again::<N>();
         if !corrected {
             self.contacts.slid = self.sliding_energy();
         }
@@ -147,14 +148,15 @@ impl View<'_> {
 
     /// Holds the first contact again that was let go and is drawn back by others that were. So the contacts of a body find their
     /// modes together (principal pivoting by the least index: Murty 1974). Says whether there was any.
-    fn hold_again(&mut self) -> bool {
+    fn hold_again<N: NormalForce>(&mut self) -> bool {
         let mut released = std::mem::take(&mut self.contacts.released);
         released.sort_unstable();
+        released.dedup();
         let drawn_back = |index: &&u32| {
             let (geometry, bodies) = (self.look(**index as usize), self.bodies);
             let (contact, law) = self.contact(**index as usize);
-            let moves = matches!(contact.mode, Mode::Loading | Mode::Unloading);
-            moves && moves_on(law, &geometry, bodies).is_some_and(|mode| mode != contact.mode)
+            let still = standing::is_still::<N>(&contact, law, &geometry);
+            still && moves_on(law, &geometry, bodies).is_some_and(|mode| mode != contact.mode)
         };
         let first = released.iter().find(drawn_back).copied();
         if let Some(index) = first {
@@ -212,7 +214,7 @@ impl View<'_> {
                 }
             }
             if contact.mode != Mode::Open && contact.mode != Mode::Hold {
-                contact.mode = standing::<N>(law, contact.mode, geometry.parting());
+                contact.mode = standing_mode::<N>(law, contact.mode, geometry.parting());
             }
         }
     }

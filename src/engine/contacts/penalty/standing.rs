@@ -5,7 +5,10 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
+use super::coulomb::Grip;
 use super::normal::{Mode, NormalForce};
+use super::pair_law::PairLaw;
+use super::switching::View;
 use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
@@ -16,37 +19,87 @@ const ROUNDING: f64 = 1e-12;
 /// Sides stand that accelerate by at most this share of the acceleration by the spring alone. Forces that balance round so.
 const STANDS: f64 = 1e-9;
 
+/// Whether a contact presses or relaxes with a law that may hold it.
+fn moves<N: NormalForce>(contact: &Contact, law: &PairLaw) -> bool {
+    N::dissipates(law) && matches!(contact.mode, Mode::Loading | Mode::Unloading)
+}
+
+/// Whether a contact that presses or relaxes has sides that stand along the normal.
+pub(super) fn is_still<N: NormalForce>(contact: &Contact, law: &PairLaw, geometry: &PairGeometry) -> bool {
+    moves::<N>(contact, law) && geometry.parting().abs() <= ROUNDING * geometry.speed(law.shares())
+}
+
+/// Contacts stop with those of `named`, which an event has stopped, if they have no velocity left. That may be along the normal or
+/// along the surface. A body that tilts between two others stops on all of them at once. One that pivots stops in all directions.
+/// Rounding decides which of them the event names. So does the error of the step: among normals that turn, it tells no velocity below
+/// `error` m/s from zero. Friction that stops too early loses its spring, so it waits for its own event. The stop reaches contacts
+/// of the same bodies, and of those held by them.
+pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], error: f64) {
+    let bodies = view.bodies;
+    let mut reached: Vec<usize> = named.iter().flat_map(|&index| view.movable(index as usize)).collect();
+    let mut first = 0;
+    while let Some(&body) = reached.get(first) {
+        first += 1;
+        for index in 0..view.len() {
+            if !view.movable(index).any(|other| other == body) {
+                continue;
+            }
+            let geometry = view.look(index);
+            let (mut contact, law) = view.contact(index);
+            let shares = law.shares();
+            // Sides that do not slide have the speed that the springs give back from this overlap as their scale.
+            let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
+            let rounding = ROUNDING * (geometry.speed(shares) + swing);
+            if N::SET_VALUED && moves::<N>(&contact, law) && geometry.parting().abs() <= rounding.max(error) {
+                contact.mode = Mode::Hold;
+            }
+            let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
+            let grips = slides && geometry.sliding(shares).abs() <= rounding;
+            if grips {
+                contact.tangential.grip = Grip::Hold;
+            }
+            let (holds, slider) = (contact.mode == Mode::Hold, contact.tangential);
+            drop(contact);
+            if grips {
+                view.note_stopped(index, slider);
+            }
+            if holds {
+                reached.extend(view.movable(index).filter(|other| !reached.contains(other)).collect::<Vec<_>>());
+            }
+        }
+    }
+}
+
 /// Holds the contacts whose sides neither move nor accelerate along the normal. Returns whether there were any.
 pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) -> bool {
     if !N::SET_VALUED {
         return false;
     }
     let PenaltyContacts { laws, atoms, surfaces, released, .. } = contacts;
-    let released = std::mem::take(released);
-    let moves = |contact: &Contact| matches!(contact.mode, Mode::Loading | Mode::Unloading);
     let stands = |contact: &Contact, geometry: &PairGeometry| {
         let law = laws.get(contact.law);
-        let shares = law.shares();
         let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
-        N::dissipates(law)
-            && geometry.parting().abs() <= ROUNDING * geometry.speed(shares)
-            && geometry.parting_rate(shares, bodies).abs() <= STANDS * pushed
+        is_still::<N>(contact, law, geometry) && geometry.parting_rate(law.shares(), bodies).abs() <= STANDS * pushed
     };
     let mut some = false;
+    let mut hold = |index: usize, contact: &Contact, geometry: &PairGeometry| {
+        let waits = released.iter().position(|&released| released as usize == index);
+        if let Some(place) = waits.filter(|_| !is_still::<N>(contact, laws.get(contact.law), geometry)) {
+            released.swap_remove(place);
+        }
+        let holds = waits.is_none() && stands(contact, geometry);
+        some |= holds;
+        holds
+    };
     for (index, &pair) in pairs.atoms.iter().enumerate().take(atoms.len()) {
-        let contact = atoms.get(index);
-        let begins = moves(&contact) && !released.contains(&(index as u32));
-        if begins && stands(&contact, &PairGeometry::atoms(bodies, index, pair)) {
+        if hold(index, &atoms.get(index), &PairGeometry::atoms(bodies, index, pair)) {
             atoms.edit(index).mode = Mode::Hold;
-            some = true;
         }
     }
     for (index, &pair) in pairs.surfaces.iter().enumerate().take(surfaces.len()) {
-        let contact = surfaces.get(index);
-        let begins = moves(&contact) && !released.contains(&((atoms.len() + index) as u32));
-        if begins && stands(&contact, &PairGeometry::surface(bodies, index, pair)) {
+        let geometry = PairGeometry::surface(bodies, index, pair);
+        if hold(atoms.len() + index, &surfaces.get(index), &geometry) {
             surfaces.edit(index).mode = Mode::Hold;
-            some = true;
         }
     }
     some

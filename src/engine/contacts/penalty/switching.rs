@@ -17,11 +17,12 @@
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
-use super::coulomb::{Grip, ROUNDING, Slider, SliderLaw};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
+use super::standing;
 use crate::constraints::islands::IslandLink;
 use crate::constraints::{Booking, LostTo, Rows};
 use crate::contacts::Touches;
@@ -153,16 +154,23 @@ impl PenaltyContacts {
 }
 
 impl View<'_> {
-    /// Changes the modes whose indicators vanished.
-    pub fn switch<N: NormalForce>(&mut self, fired: &[usize], ledger: &mut Ledger, touches: Option<&mut Touches>) {
+    /// Changes the modes whose indicators vanished. `error`: the error of velocities in m/s that the step was allowed.
+    pub fn switch<N: NormalForce>(
+        &mut self,
+        fired: &[usize],
+        error: f64,
+        ledger: &mut Ledger,
+        touches: Option<&mut Touches>,
+    ) {
         if let Some(touches) = touches {
             self.note_begun(fired, touches);
         }
         let slid = self.close_slides();
         // Energy that springs held before and lose by the change is lost. It is booked when all modes have settled.
         self.contacts.held_before = Some(self.stored(|_| true));
-        self.stop_together();
+        self.grip_stopped();
         self.note_springs();
+        let mut turned = Vec::new();
         for &index in fired {
             let Some((pair, what)) = self.told(index) else { continue };
             if matches!(what, What::Lower | What::Upper) {
@@ -176,6 +184,9 @@ impl View<'_> {
             contact.come_loose(law, &geometry);
             let (stands, normal_force) =
                 (matches!(what, What::Turn) && contact.mode == Mode::Hold, contact.normal_force);
+            if stands {
+                turned.push(pair);
+            }
             if stands && !law.exact {
                 let (sliding, mobility) =
                     (geometry.sliding(law.shares()), geometry.mobility_along(law.shares(), bodies));
@@ -192,6 +203,9 @@ impl View<'_> {
                 (None, _) => {}
             }
         }
+        let stopped = self.contacts.stopped.clone();
+        standing::stop_together::<N>(self, &stopped, 0.0);
+        standing::stop_together::<N>(self, &turned, error);
         ledger.friction.add(slid);
     }
 
@@ -229,39 +243,30 @@ impl View<'_> {
         self.contacts.told.get(index).copied().filter(|told| (told.0 as usize) < self.len())
     }
 
-    /// Contacts beside one that stopped stop with it, if they slide without a spring and have no velocity left. Rounding decides
-    /// which of them the event names.
-    fn stop_together(&mut self) {
+    /// The friction that the event stopped holds from now on.
+    fn grip_stopped(&mut self) {
         let mut stopped = std::mem::take(&mut self.contacts.stopped);
         // A list from before may name contacts that are gone.
         stopped.retain(|&index| (index as usize) < self.len());
-        let named = stopped.len();
         for &index in &stopped {
             self.contact(index as usize).0.tangential.grip = Grip::Hold;
-        }
-        for index in 0..if named == 0 { 0 } else { self.len() } {
-            let geometry = self.look(index);
-            let (contact, law, _) = self.whole(index, &geometry);
-            let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
-            let stands = geometry.sliding(law.shares()).abs() <= ROUNDING * geometry.speed(law.shares());
-            drop(contact);
-            let beside = |&other: &u32| self.shares_body(index, other as usize);
-            if slides && stands && !stopped.contains(&(index as u32)) && stopped[..named].iter().any(beside) {
-                self.contact(index).0.tangential.grip = Grip::Hold;
-                stopped.push(index as u32);
-            }
         }
         self.contacts.stopped = stopped;
     }
 
-    /// Whether two contacts are of one body that moves by forces.
-    fn shares_body(&self, one: usize, other: usize) -> bool {
-        let of = |index: usize| {
-            let pair = self.look(index).pair;
-            [Some(pair.b.body), pair.other_body()].map(|body| body.filter(|&body| self.bodies.dynamic[body]))
-        };
-        let (one, other) = (of(one), of(other));
-        one.iter().flatten().any(|body| other.contains(&Some(*body)))
+    /// A friction that stopped beside others held before this moment, too: forces choose its direction if it yields.
+    pub(super) fn note_stopped(&mut self, index: usize, slider: Slider) {
+        let PenaltyContacts { stopped, before, .. } = &mut *self.contacts;
+        stopped.push(index as u32);
+        if let Some(before) = before.get_mut(index) {
+            before[0] = Some(slider);
+        }
+    }
+
+    /// The bodies of a contact that move by forces.
+    pub(super) fn movable(&self, index: usize) -> impl Iterator<Item = usize> + use<'_> {
+        let pair = self.look(index).pair;
+        [Some(pair.b.body), pair.other_body()].into_iter().flatten().filter(|&body| self.bodies.dynamic[body])
     }
 
     /// Notes the springs that hold or stick, or slip beside a normal force that is not held.
@@ -349,7 +354,7 @@ impl View<'_> {
 }
 
 /// The mode of a contact that parts with `parting` m/s. If it neither parts nor approaches, it is held for a first try.
-pub(super) fn standing<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
+pub(super) fn standing_mode<N: NormalForce>(law: &PairLaw, present: Mode, parting: f64) -> Mode {
     if parting == 0.0 && N::SET_VALUED && N::dissipates(law) { Mode::Hold } else { N::chosen(present, parting) }
 }
 
@@ -449,7 +454,7 @@ impl Contact {
     /// A pair begins to touch, under the normal force of that moment. Without a force it touches when the motion
     /// begins.
     pub(super) fn begin<N: NormalForce>(&mut self, law: &PairLaw, geometry: &PairGeometry, base: Option<Base>) {
-        self.mode = standing::<N>(law, Mode::Loading, geometry.parting());
+        self.mode = standing_mode::<N>(law, Mode::Loading, geometry.parting());
         self.tangential = Slider::default();
         if !law.tangential().acts() {
             return;
@@ -503,7 +508,7 @@ impl Contact {
     }
 
     /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
-    fn holds_rigidly(&self, law: &PairLaw) -> bool {
+    pub(super) fn holds_rigidly(&self, law: &PairLaw) -> bool {
         law.exact || self.mode == Mode::Hold
     }
 

@@ -85,12 +85,12 @@ impl<N: NormalForce> Events for Contacts<N> {
     }
 
     fn switch(&mut self, state: &mut State, fired: &[usize]) {
-        let State { bodies, ledger, rows, clock, touches, pairs: Some(pairs), .. } = state else { return };
+        let State { bodies, evaluation, ledger, rows, clock, touches, pairs: Some(pairs), .. } = state else { return };
         let PenaltyState { contacts, rolling } = &mut self.own;
         View { bodies, pairs, contacts, rolling: rolling.as_mut() }.hold_stopped(fired, rows);
         switching::stand_still((bodies, ledger, rows), contacts, clock.dt);
         let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
-        view.switch::<N>(fired, ledger, touches.as_mut());
+        view.switch::<N>(fired, evaluation.velocity_error, ledger, touches.as_mut());
         features::cross(fired, (bodies, pairs), contacts, rolling.as_mut());
     }
 
