@@ -30,3 +30,4 @@ mod statements;
 mod stops_together;
 mod supports_that_start;
 mod tolerances;
+mod whole_ticks;

@@ -152,9 +152,12 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             coarse = trials.run(climb.first, "a coarse run with other steps", |_| {})?;
         }
     }
+    // Whole ticks and located events share no law of switching. So the last trial with events tells what whole ticks cannot.
+    let mut by_events = None;
     if coarse.overloaded && trials.ladder == Ladder::Allowed && trials.go_by_ticks() {
         climb = Climb::of(trials, tolerance);
-        coarse = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
+        let by_ticks = trials.run(climb.first, "a coarse run by whole ticks", |_| {})?;
+        by_events = Some(std::mem::replace(&mut coarse, by_ticks));
     }
     if coarse.bounded {
         // Two runs that rounding bounds are alike, and their difference is not an error.
@@ -209,7 +212,13 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             _ => None,
         };
         if let Some(chosen) = chosen {
-            return Ok(reached(trials, chosen, tolerance, apart.times(share_at(chosen))));
+            let error = apart.times(share_at(chosen));
+            let elsewhere = by_events.map(|by_events| at_moments_of(&fine, &by_events).apart(&fine));
+            let elsewhere = elsewhere.filter(|other| other.share > tolerance);
+            return Ok(match elsewhere {
+                Some(other) => elsewhere_by_events(trials, chosen, tolerance, error.max(other)),
+                None => reached(trials, chosen, tolerance, error),
+            });
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
         let (sure, left) = (before.is_some(), MOST_WORK - trials.work);
@@ -244,6 +253,25 @@ fn reached(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDist
         rough(error.speed),
     ));
     plan.notes.push(trials.cost());
+    plan.error = Some(estimate(error));
+    plan
+}
+
+/// A run that was looked at more often than `other`, at the moments of that one.
+fn at_moments_of(other: &Trajectory, run: &Trajectory) -> Trajectory {
+    run.part(f64::INFINITY, (run.moments() / other.moments().max(1)).max(1))
+}
+
+/// Whole ticks agree with each other, and not with the run that located most of its events.
+fn elsewhere_by_events(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDistance) -> Plan {
+    let mut plan = trials.planned(fineness);
+    plan.warning = Some(format!(
+        "the tolerance of {} is not reached: some ticks had too many events to locate them all. Whole ticks of velocity Verlet agree \
+         with each other, and lead up to {} m away from the run that located the other events",
+        number(tolerance),
+        rough(error.distance)
+    ));
+    plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
     plan.error = Some(estimate(error));
     plan
 }
