@@ -2,8 +2,8 @@
 //! piece on four corners. Rounding, and the error of a step, decide which corner an event names first. The forces that follow are
 //! the same. A contact that was let go is held again when the loads ask for it. So runs agree within three times what both state.
 //!
-//! Not tested: corners that stop one after another, within less than the error of a run. Boxes in a corner whose material gives
-//! energy back: their springs share the loads as they come to rest, and runs differ by the depth of the springs.
+//! Not tested: bodies whose contacts stop one after another, on more of them than statics determines. Runs may then differ by the depth
+//! of the springs (`docs/limits.md`). Boxes in a corner do, if their material gives energy back.
 
 use super::ran::run;
 
@@ -91,7 +91,7 @@ fn demand_agreement(name: &str, trusted: usize, scene: impl Fn(&str) -> String) 
 
 #[test]
 fn two_boxes_that_come_down_as_one_piece_do_so_under_every_tolerance() {
-    for (scale, stiffness) in [(1.0, 695_023.0), (0.1, 2e5), (0.04, 9e4)] {
+    for (scale, stiffness) in [(1.0, 695_023.0), (2.0, 2e6), (0.04, 9e4)] {
         demand_agreement(&format!("scale {scale}"), 2, |clock| pushed(scale, stiffness, clock));
     }
 }
