@@ -22,7 +22,7 @@ fn whole_ticks_state_how_far_located_events_lead() {
         };
         let stating = [", tolerance: 1e-3", ", tolerance: 1e-5"].map(|clock| run(&scene(clock), 1).unwrap());
         let located = end(&scene(", method: Dop853, tick: 0.001")).unwrap();
-        let stated = |ran: &super::ran::Ran| ran.stated().map_or(f64::INFINITY, |stated| stated.0);
+        let stated = |ran: &super::ran::Ran| ran.stated().expect("an error is stated").0;
         let [one, other] = &stating;
         let pairs = [
             (one.apart(other), 3.0 * (stated(one) + stated(other))),

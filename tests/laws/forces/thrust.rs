@@ -43,7 +43,7 @@ fn the_card_says_what_comes_of_times_between_ticks() {
 }
 
 /// `v = F t/m` from one tick to another, by a force that nothing else accompanies: each tick in it has both of its half kicks, and no
-/// other one has any. Tolerance: rounding of a thousand kicks.
+/// other one has any. Tolerance: rounding of a thousand kicks. Not tested: a kick that waits, as beside contacts (`determinism/batches`).
 #[test]
 fn a_thrust_acts_in_its_ticks_and_in_no_half_more() {
     // No frame of a film ends at these times, where a run may be cut.
