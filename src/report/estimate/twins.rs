@@ -198,24 +198,37 @@ pub(super) fn run(
     };
     let mut twin = scene.again(first, plan, 1.0, &what)?;
     watch_beside(&mut twin, first, finer, until);
-    let overloaded = |twin: &Simulation| finer.located && twin.resource::<State>().located().given_up > 0;
-    let useless = |twin: &Simulation| overloaded(twin) || scene.is_interrupted();
-    Ok(match work::run_to_tick(&mut twin, finer.tick(until), patience, useless) {
+    let end = finer.tick(until);
+    let useless = |twin: &Simulation| finer.located && locates_little(twin, patience, end) || scene.is_interrupted();
+    Ok(match work::run_to_tick(&mut twin, end, patience, useless) {
         Ok(failure) => Some((Trajectory::watched(&mut twin, failure), twin)),
         Err(TooLong) => None,
     })
 }
 
-/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if a tick
-/// held too many events to locate.
+/// A twin with ticks of too many events may take so many times the expected evaluations. Located ticks are several times as dear as
+/// others, so more of them exceed the time of an estimate.
+const EXCESS_OF_CROWDED: f64 = 2.0;
+
+/// Whether a run held too many events to locate in most of its ticks. A run with fewer such ticks is useless too if the others take
+/// long, until the end of tick `end`.
+fn locates_little(twin: &Simulation, patience: Option<Patience>, end: u64) -> bool {
+    let crowded = twin.resource::<State>().located().given_up;
+    let done = twin.clock().ticks as f64 / end as f64;
+    crowded > 0 && (2 * crowded >= end || patience.is_some_and(|most| most.exceeds(EXCESS_OF_CROWDED, twin, done)))
+}
+
+/// The same by located events. `None` also if the scene does not permit that or the twin fails. The same holds if most ticks held too
+/// many events to locate.
 pub(super) fn run_located(
     first: &Simulation,
-    how: (Finer, u64),
+    (finer, until): (Finer, u64),
     patience: Option<Patience>,
     scene: &Repeated,
 ) -> Option<(Trajectory, Simulation)> {
-    let made = run(first, how, patience, scene).ok().flatten();
-    made.filter(|(twin, _)| twin.failure.is_none() && !twin.overloaded)
+    let made = run(first, (finer, until), patience, scene).ok().flatten();
+    let end = finer.tick(until);
+    made.filter(|(run, twin)| run.failure.is_none() && !locates_little(twin, patience, end))
 }
 
 /// The results of twins on the error of a run.

@@ -55,6 +55,8 @@ fn part(work: f64, reading: f64, times: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     evaluations: f64,
+    /// The expected evaluations.
+    expected: f64,
     time: Option<Duration>,
 }
 
@@ -63,8 +65,14 @@ impl Patience {
     pub fn of(first: &Simulation, part: f64, finer: f64) -> Self {
         let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
         let time = first.state().has_force_systems().then(|| Duration::from_secs_f64(seconds));
-        let evaluations = EXCESS * (finer * part * evaluations(first) + FREE / per_evaluation(first));
-        Self { evaluations, time }
+        let expected = finer * part * evaluations(first);
+        let evaluations = EXCESS * (expected + FREE / per_evaluation(first));
+        Self { evaluations, expected, time }
+    }
+
+    /// Whether a run, of which the share `done` is over, will take more than `times` the expected evaluations.
+    pub fn exceeds(&self, times: f64, run: &Simulation, done: f64) -> bool {
+        evaluations(run) > times * self.expected * done.max(TELLS)
     }
 }
 

@@ -213,12 +213,12 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         };
         if let Some(chosen) = chosen {
             let error = apart.times(share_at(chosen));
-            let elsewhere = by_events.map(|by_events| at_moments_of(&fine, &by_events).apart(&fine));
-            let elsewhere = elsewhere.filter(|other| other.share > tolerance);
-            return Ok(match elsewhere {
-                Some(other) => elsewhere_by_events(trials, chosen, tolerance, error.max(other)),
-                None => reached(trials, chosen, tolerance, error),
-            });
+            let elsewhere = by_events.as_ref().map(|by_events| at_moments_of(&fine, by_events).apart(&fine));
+            let elsewhere = elsewhere.filter(|other| other.distance.is_finite());
+            let mut plan = reached(trials, chosen, tolerance, elsewhere.map_or(error, |other| error.max(other)));
+            let beyond = elsewhere.filter(|other| other.share > tolerance);
+            plan.warning = beyond.map(|other| beyond_by_events(tolerance, other));
+            return Ok(plan);
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
         let (sure, left) = (before.is_some(), MOST_WORK - trials.work);
@@ -226,7 +226,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let ended = alike || next <= climb.finest || trials.count >= MOST_TRIALS;
         let Some(then) = then.filter(|_| !ended) else {
             let ends = Ends { fineness: next, finest: next <= climb.finest, dear: then.is_none() };
-            return Ok(missed(trials, ends, tolerance, (&coarse, &fine), apart.times(share_at(next))));
+            let runs = Runs { coarse: &coarse, fine: &fine, by_events: by_events.as_ref() };
+            return Ok(missed(trials, ends, tolerance, runs, apart.times(share_at(next))));
         };
         before = Some((fineness, difference, difference * share_at(next)));
         (fineness, coarse, next) = (next, fine, then);
@@ -263,17 +264,13 @@ fn at_moments_of(other: &Trajectory, run: &Trajectory) -> Trajectory {
 }
 
 /// Whole ticks agree with each other, and not with the run that located most of its events.
-fn elsewhere_by_events(trials: &Trials, fineness: f64, tolerance: f64, error: TrajectoryDistance) -> Plan {
-    let mut plan = trials.planned(fineness);
-    plan.warning = Some(format!(
+fn beyond_by_events(tolerance: f64, other: TrajectoryDistance) -> String {
+    format!(
         "the tolerance of {} is not reached: some ticks had too many events to locate them all. Whole ticks of velocity Verlet agree \
          with each other, and lead up to {} m away from the run that located the other events",
         number(tolerance),
-        rough(error.distance)
-    ));
-    plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
-    plan.error = Some(estimate(error));
-    plan
+        rough(other.distance)
+    )
 }
 
 /// The reason for which steps cannot be smaller, if bodies come `farthest` metres from the origin and go `distance`.
@@ -299,13 +296,23 @@ struct Ends {
     dear: bool,
 }
 
+/// The runs that tell the error of a ladder without a plan.
+#[derive(Clone, Copy)]
+struct Runs<'a> {
+    /// The two finest.
+    coarse: &'a Trajectory,
+    fine: &'a Trajectory,
+    /// The last one with located events, if these two go by whole ticks.
+    by_events: Option<&'a Trajectory>,
+}
+
 /// No run was fine enough. The finest is taken, and the card gives the time from which it is wrong.
 fn missed(
     trials: &Trials,
     ends: Ends,
     tolerance: f64,
-    (coarse, fine): (&Trajectory, &Trajectory),
-    error: TrajectoryDistance,
+    Runs { coarse, fine, by_events }: Runs,
+    mut error: TrajectoryDistance,
 ) -> Plan {
     let mut plan = trials.planned(ends.fineness);
     let lost = coarse.parts(fine, tolerance * trials.sizes().0);
@@ -332,8 +339,17 @@ fn missed(
     plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
     plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
     // Errors that the motion magnifies do not fall in proportion to the error of a step.
-    let (apart, horizon) = coarse.apart_until(fine, TELLS_NOTHING * trials.sizes().0);
-    let mut known = estimate(if magnified || horizon.is_some() { apart } else { error });
+    let useless = TELLS_NOTHING * trials.sizes().0;
+    let (apart, mut horizon) = coarse.apart_until(fine, useless);
+    if magnified || horizon.is_some() {
+        error = apart;
+    }
+    let elsewhere = by_events.map(|by_events| at_moments_of(fine, by_events).apart_until(fine, useless));
+    if let Some((other, parted)) = elsewhere.filter(|(other, _)| other.distance.is_finite()) {
+        error = error.max(other);
+        horizon = [horizon, parted].into_iter().flatten().reduce(f64::min);
+    }
+    let mut known = estimate(error);
     known.horizon = horizon;
     if coarse.overloaded || fine.overloaded {
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
