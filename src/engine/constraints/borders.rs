@@ -32,11 +32,6 @@ pub(super) struct Borders {
 }
 
 impl Borders {
-    /// Forgets all of them.
-    pub fn clear(&mut self) {
-        self.islands.clear();
-    }
-
     /// Whether there are no contacts.
     pub fn is_empty(&self) -> bool {
         self.islands.is_empty()

@@ -5,6 +5,7 @@
 //! | `rows.rs` | solves held relative accelerations and velocities, exactly, for methods with stages |
 //! | `redundant.rs` | chooses the forces if rows depend on each other |
 //! | `solver.rs` | solves the same for joints, by sparse factors (`block_cholesky.rs`) |
+//! | `structure.rs` | finds the islands, blocks and borders of these rows, and keeps them while bodies are linked alike |
 //! | `borders.rs` | solves held contacts beside those factors |
 //! | `cones.rs` | keeps friction of contacts that hold together within their cones |
 //! | `projection.rs` | brings places and velocities back onto the constraints of joints |
@@ -27,6 +28,7 @@ mod row;
 mod rows;
 mod solver;
 pub mod spring_network;
+mod structure;
 
 pub use cones::{Cone, ConePressure, HOLDS};
 pub use dead_point::DeadPoints;

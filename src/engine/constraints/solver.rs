@@ -6,11 +6,9 @@
 //! until the rows are satisfied. The answer tends to the solution of least norm (proximal iteration, Rockafellar 1976).
 //! The norm measures each unknown by its diagonal and by its [`Share`].
 
-use super::block_cholesky::BlockCholesky;
-use super::borders::Borders;
-use super::islands::{IslandLink, Islands, find};
 use super::redundant::{self, Share};
 use super::row::{Row, RowKind};
+use super::structure::Structure;
 use crate::world::Bodies;
 use glam::DVec2;
 
@@ -24,33 +22,9 @@ const ROUNDING: f64 = 1e-15;
 /// An island with held contacts and at most this many rows of joints is solved densely, which is faster there.
 const MOST_DENSE: usize = 32;
 
-/// Marks the side of a row that no force moves.
-const NONE: u32 = u32::MAX;
-
-/// A row as far as the structure of the equations depends on it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct Ends {
-    bodies: [u32; 2],
-    held: bool,
-}
-
-/// A row among the links of which islands consist.
-#[derive(Clone, Copy)]
-struct Linked {
-    row: usize,
-    own: usize,
-    other: Option<usize>,
-}
-
-impl IslandLink for Linked {
-    fn other_body(&self) -> Option<usize> {
-        self.other
-    }
-
-    fn own_body(&self) -> usize {
-        self.own
-    }
-}
+/// Structures that are kept beside the present one. The stages of a tick have rows of their own, and those of the next tick find their
+/// structures again: rows of joints, those with held contacts, and both with all islands dense.
+const KEPT: usize = 3;
 
 /// A joint bears all that contacts leave. Its measure is so many times that of the contacts beside it. The square of
 /// this is the share by which contacts depart from their springs.
@@ -64,22 +38,14 @@ fn among_contacts(row: &Row, share: Share, greatest: f64) -> Share {
 /// The equations of some rows.
 #[derive(Debug, Default)]
 pub struct Solver {
-    /// The topology for which the structure was found.
-    ends: Vec<Ends>,
-    /// Rows of joints outside the dense islands, in the order of the unknowns of the factor.
-    sparse: Vec<usize>,
-    factor: BlockCholesky,
-    /// Two rows and the index of their entry.
-    entries: Vec<(u32, u32, u32)>,
-    /// Held contacts beside the factor.
-    borders: Borders,
-    /// Rows of each other island with held contacts, and the matrices of those, one behind the other.
-    dense: Vec<Vec<usize>>,
+    /// The structure of the present rows, and those of others.
+    structure: Structure,
+    others: Vec<Structure>,
+    /// The matrices of dense islands, one behind the other.
     matrix: Vec<f64>,
     /// Whether sparse rows depend on each other.
     dependent: bool,
-    /// Bodies of sparse rows, and the velocities that a list of forces gives them.
-    moved: Vec<usize>,
+    /// The velocities that a list of forces gives to the bodies of sparse rows.
     velocity: Vec<DVec2>,
     spin: Vec<f64>,
     right: Vec<f64>,
@@ -88,38 +54,57 @@ pub struct Solver {
 }
 
 impl Solver {
-    /// Finds the factors, and the structure if it has changed.
+    /// Finds the factors, and the structure if it is a new one.
     pub fn prepare(&mut self, rows: &[Row], bodies: &Bodies) {
-        let same = rows.len() == self.ends.len() && rows.iter().zip(&self.ends).all(|(row, e)| ends(row, bodies) == *e);
-        if !same {
-            self.find_structure(rows, bodies, MOST_DENSE);
-        }
+        self.prepare_with(rows, bodies, MOST_DENSE);
+    }
+
+    fn prepare_with(&mut self, rows: &[Row], bodies: &Bodies, most_dense: usize) {
+        self.take_structure(rows, bodies, most_dense);
         self.factor_joints(rows, bodies);
-        if self.dependent && !self.borders.is_empty() {
+        if self.dependent && !self.structure.borders.is_empty() {
             // All rows of an island together decide which of many answers the solver takes.
-            self.find_structure(rows, bodies, usize::MAX);
+            self.take_structure(rows, bodies, usize::MAX);
             self.factor_joints(rows, bodies);
         }
-        self.borders.prepare(rows, &self.sparse, &self.factor, bodies);
+        let Structure { sparse, factor, borders, dense, .. } = &mut self.structure;
+        borders.prepare(rows, sparse, factor, bodies);
         self.matrix.clear();
-        for island in &self.dense {
-            for &row in island {
+        for island in dense {
+            for &row in &*island {
                 self.matrix.extend(island.iter().map(|other| rows[row].response(&rows[*other], bodies)));
             }
         }
     }
 
+    /// Takes the structure of these rows. Islands with held contacts and at most `most_dense` rows of joints are dense.
+    fn take_structure(&mut self, rows: &[Row], bodies: &Bodies, most_dense: usize) {
+        let Self { structure, others, .. } = self;
+        let fits = |structure: &Structure| structure.is_of(rows, bodies, most_dense);
+        if fits(structure) {
+            return;
+        }
+        if let Some(known) = others.iter_mut().find(|known| fits(known)) {
+            std::mem::swap(structure, known);
+            return;
+        }
+        if others.len() == KEPT {
+            others.remove(0);
+        }
+        others.push(std::mem::replace(structure, Structure::find(rows, bodies, most_dense)));
+    }
+
     fn factor_joints(&mut self, rows: &[Row], bodies: &Bodies) {
         // More rows than the bodies have freedoms depend on each other, whatever their directions.
-        self.dependent = self.sparse.len() > 3 * self.moved.len();
+        self.dependent = self.structure.sparse.len() > 3 * self.structure.moved.len();
         if !self.dependent {
             self.fill(rows, bodies);
-            self.dependent = !self.factor.factor();
+            self.dependent = !self.structure.factor.factor();
         }
         if self.dependent {
             self.fill(rows, bodies);
             self.soften(rows);
-            self.factor.factor();
+            self.structure.factor.factor();
         }
     }
 
@@ -131,127 +116,31 @@ impl Solver {
     /// The least pivot of the factors as a share of its number before elimination. It exists if joints form loops and
     /// no row depends on others.
     pub fn least_pivot(&self) -> Option<f64> {
-        (self.factor.watch && !self.dependent).then_some(self.factor.least_pivot)
+        (self.structure.factor.watch && !self.dependent).then_some(self.structure.factor.least_pivot)
     }
 
     fn fill(&mut self, rows: &[Row], bodies: &Bodies) {
-        let numbers = self.factor.numbers();
+        let numbers = self.structure.factor.numbers();
         numbers.fill(0.0);
-        for &(a, b, index) in &self.entries {
+        for &(a, b, index) in &self.structure.entries {
             numbers[index as usize] = rows[a as usize].response(&rows[b as usize], bodies);
         }
     }
 
     /// Adds a share of the diagonal. It is the greater, the smaller the measure of the row is.
     fn soften(&mut self, rows: &[Row]) {
-        let numbers = self.factor.numbers();
-        for &(row, _, index) in self.entries.iter().filter(|(a, b, _)| a == b) {
+        let numbers = self.structure.factor.numbers();
+        for &(row, _, index) in self.structure.entries.iter().filter(|(a, b, _)| a == b) {
             let number = &mut numbers[index as usize];
             *number += SHARE / rows[row as usize].share.measure.powi(2) * *number;
         }
-    }
-
-    /// Islands with held contacts and at most `most_dense` rows of joints are solved densely.
-    fn find_structure(&mut self, rows: &[Row], bodies: &Bodies, most_dense: usize) {
-        self.ends.clear();
-        self.ends.extend(rows.iter().map(|row| ends(row, bodies)));
-        let mut links: Vec<Linked> = rows
-            .iter()
-            .enumerate()
-            .filter_map(|(row, of)| {
-                let [a, b] = of.sides.map(|side| side.map(|side| side.body));
-                Some(Linked { row, own: b.or(a)?, other: b.and(a) })
-            })
-            .collect();
-        let mut islands = Islands::default();
-        islands.sort::<_, Linked>(&mut links, &mut [], bodies);
-        (self.dense, self.sparse) = (Vec::new(), Vec::new());
-        let mut borders = Vec::new();
-        for island in links.chunk_by(|a, b| islands.of(a, bodies) == islands.of(b, bodies)) {
-            let mut island: Vec<usize> = island.iter().map(|link| link.row).collect();
-            island.sort_unstable();
-            let (held, joints): (Vec<usize>, Vec<usize>) = island.iter().partition(|row| self.ends[**row].held);
-            if !held.is_empty() && joints.len() <= most_dense {
-                self.dense.push(island);
-                continue;
-            }
-            self.sparse.extend(joints);
-            if !held.is_empty() {
-                borders.push(held);
-            }
-        }
-        self.sparse.sort_unstable();
-        self.find_nodes(bodies);
-        self.find_borders(borders, rows, bodies);
-    }
-
-    fn find_borders(&mut self, borders: Vec<Vec<usize>>, rows: &[Row], bodies: &Bodies) {
-        self.borders.clear();
-        if borders.is_empty() {
-            return;
-        }
-        let mut unknowns = vec![Vec::new(); bodies.len()];
-        for (unknown, &row) in self.sparse.iter().enumerate() {
-            let moved = self.ends[row].bodies.into_iter().filter(|body| *body != NONE);
-            moved.for_each(|body| unknowns[body as usize].push(unknown));
-        }
-        borders.into_iter().for_each(|held| self.borders.add(held, rows, &unknowns));
-    }
-
-    /// Consecutive rows between the same bodies are a node. Nodes with a body in common have an edge.
-    fn find_nodes(&mut self, bodies: &Bodies) {
-        let Self { ends, sparse, .. } = self;
-        let (mut size, mut owner): (Vec<u32>, Vec<(u32, u32)>) = (Vec::new(), Vec::new());
-        let mut nodes_of: Vec<Vec<u32>> = vec![Vec::new(); bodies.len()];
-        for (index, &row) in sparse.iter().enumerate() {
-            let joins = index > 0 && sparse[index - 1] + 1 == row && ends[sparse[index - 1]] == ends[row];
-            if !joins {
-                size.push(0);
-                let moved = ends[row].bodies.into_iter().filter(|body| *body != NONE);
-                moved.for_each(|body| nodes_of[body as usize].push(size.len() as u32 - 1));
-            }
-            let node = size.len() - 1;
-            owner.push((node as u32, size[node]));
-            size[node] += 1;
-        }
-        let mut edges: Vec<(u32, u32)> = nodes_of
-            .iter()
-            .flat_map(|nodes| {
-                nodes.iter().enumerate().flat_map(|(index, a)| nodes[index + 1..].iter().map(|b| (*a, *b)))
-            })
-            .collect();
-        edges.sort_unstable();
-        edges.dedup();
-        let mut first = vec![0; size.len()];
-        for (index, (node, own)) in owner.iter().enumerate() {
-            if *own == 0 {
-                first[*node as usize] = index;
-            }
-        }
-        self.factor = BlockCholesky::new(size.clone(), edges.iter().copied());
-        self.entries.clear();
-        let within = |node: u32| first[node as usize]..first[node as usize] + size[node as usize] as usize;
-        let pairs = (0..size.len() as u32).map(|node| (node, node)).chain(edges);
-        for (a, b) in pairs {
-            for row in within(a) {
-                for column in within(b) {
-                    let index = self.factor.entry(owner[row], owner[column]);
-                    let index = index.or_else(|| self.factor.entry(owner[column], owner[row]));
-                    let index = index.expect("these nodes have an edge");
-                    self.entries.push((sparse[row] as u32, sparse[column] as u32, index as u32));
-                }
-            }
-        }
-        self.moved = (0..bodies.len()).filter(|body| !nodes_of[*body].is_empty()).collect();
-        let nodes = first.iter().map(|index| ends[sparse[*index]].bodies);
-        self.factor.watch = has_loop(nodes, bodies.len());
     }
 
     /// Solves for `values`, a number for each row, in their place. Dense islands with dependent rows take the answer nearest to their
     /// shares.
     pub fn solve(&mut self, rows: &[Row], bodies: &Bodies, shares: impl Fn(&Row) -> Share, values: &mut [f64]) {
         let mut matrix = self.matrix.as_slice();
-        for island in &self.dense {
+        for island in &self.structure.dense {
             let (own, others) = matrix.split_at(island.len() * island.len());
             self.answer.clear();
             self.answer.extend(island.iter().map(|row| values[*row]));
@@ -262,18 +151,18 @@ impl Solver {
             island.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
             matrix = others;
         }
-        if self.sparse.is_empty() {
+        if self.structure.sparse.is_empty() {
             return;
         }
         self.right.clear();
-        self.right.extend(self.sparse.iter().map(|row| values[*row]));
+        self.right.extend(self.structure.sparse.iter().map(|row| values[*row]));
         self.answer.clone_from(&self.right);
-        self.factor.solve(&mut self.answer);
+        self.structure.factor.solve(&mut self.answer);
         if self.dependent {
             self.refine(rows, bodies);
         }
-        self.borders.solve((rows, &self.sparse), bodies, shares, values, &mut self.answer);
-        self.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
+        self.structure.borders.solve((rows, &self.structure.sparse), bodies, shares, values, &mut self.answer);
+        self.structure.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
     }
 
     fn refine(&mut self, rows: &[Row], bodies: &Bodies) {
@@ -282,7 +171,7 @@ impl Solver {
         for _ in 0..MOST_REFINEMENTS {
             self.spread(rows, bodies);
             self.work.clear();
-            for (index, &row) in self.sparse.iter().enumerate() {
+            for (index, &row) in self.structure.sparse.iter().enumerate() {
                 self.work.push(self.right[index] - self.gathered(&rows[row]));
             }
             let worst = self.work.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
@@ -290,7 +179,7 @@ impl Solver {
                 break;
             }
             before = worst;
-            self.factor.solve(&mut self.work);
+            self.structure.factor.solve(&mut self.work);
             self.answer.iter_mut().zip(&self.work).for_each(|(answer, more)| *answer += more);
         }
     }
@@ -299,10 +188,10 @@ impl Solver {
     fn spread(&mut self, rows: &[Row], bodies: &Bodies) {
         self.velocity.resize(bodies.len(), DVec2::ZERO);
         self.spin.resize(bodies.len(), 0.0);
-        for &body in &self.moved {
+        for &body in &self.structure.moved {
             (self.velocity[body], self.spin[body]) = (DVec2::ZERO, 0.0);
         }
-        for (&row, &amount) in self.sparse.iter().zip(&self.answer) {
+        for (&row, &amount) in self.structure.sparse.iter().zip(&self.answer) {
             for side in rows[row].sides.iter().flatten() {
                 self.velocity[side.body] += side.force * (amount * bodies.inverse_mass(side.body));
                 self.spin[side.body] += side.torque * (amount * bodies.inverse_inertia(side.body));
@@ -315,24 +204,6 @@ impl Solver {
             |side: &super::RowSide| side.direction.dot(self.velocity[side.body]) + side.lever * self.spin[side.body];
         row.sides.iter().flatten().map(of).fold(0.0, |sum, term| sum + term)
     }
-}
-
-/// Whether joints form a loop, found by union-find. Fixed bodies, prescribed bodies and the world count as one body.
-fn has_loop(mut joints: impl Iterator<Item = [u32; 2]>, bodies: usize) -> bool {
-    let mut root: Vec<u32> = (0..=bodies as u32).collect();
-    let closes = |[a, b]: [u32; 2]| {
-        let [a, b] = [a, b].map(|body| find(&mut root, body.min(bodies as u32)));
-        root[a.max(b) as usize] = a.min(b);
-        a == b
-    };
-    joints.any(closes)
-}
-
-fn ends(row: &Row, bodies: &Bodies) -> Ends {
-    let body = |side: Option<super::RowSide>| {
-        side.filter(|side| bodies.dynamic[side.body]).map_or(NONE, |side| side.body as u32)
-    };
-    Ends { bodies: row.sides.map(body), held: row.kind == RowKind::Acceleration }
 }
 
 #[cfg(test)]
@@ -377,10 +248,9 @@ mod tests {
         let right: Vec<f64> = (0..rows.len()).map(|row| ((7 * row) % 11) as f64 - 5.0).collect();
         let solved = |most_dense: usize| {
             let (mut solver, mut values) = (Solver::default(), right.clone());
-            solver.find_structure(&rows, &bodies, most_dense);
-            solver.prepare(&rows, &bodies);
+            solver.prepare_with(&rows, &bodies, most_dense);
             solver.solve(&rows, &bodies, |row| row.share, &mut values);
-            (solver.borders.is_empty(), values)
+            (solver.structure.borders.is_empty(), values)
         };
         let (bordered, dense) = (solved(MOST_DENSE), solved(usize::MAX));
         assert_eq!((bordered.0, dense.0), (false, true));
