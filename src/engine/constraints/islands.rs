@@ -28,6 +28,8 @@ fn each_end<L: IslandLink>(links: &[L], mut act: impl FnMut(usize)) {
 pub struct Islands {
     /// For each body of a link the first body of its island.
     root: Vec<u32>,
+    /// For each link the first body of its island, and the index of the link.
+    order: Vec<(u32, u32)>,
 }
 
 impl Islands {
@@ -43,8 +45,26 @@ impl Islands {
         let settle = |root: &mut [u32], body: usize| root[body] = find(root, body as u32);
         each_end(links, |body| settle(&mut self.root, body));
         each_end(others, |body| settle(&mut self.root, body));
-        links.sort_by_key(|link| self.of(link, bodies));
-        others.sort_by_key(|link| self.of(link, bodies));
+        self.sort_by_root(links, bodies);
+        self.sort_by_root(others, bodies);
+    }
+
+    /// Sorts small keys and then moves each link once, for links are large.
+    fn sort_by_root<L: IslandLink>(&mut self, links: &mut [L], bodies: &Bodies) {
+        let mut order = std::mem::take(&mut self.order);
+        order.clear();
+        order.extend(links.iter().enumerate().map(|(index, link)| (self.of(link, bodies), index as u32)));
+        order.sort_unstable();
+        for to in 0..order.len() {
+            let mut from = order[to].1 as usize;
+            // Earlier exchanges have taken it farther.
+            while from < to {
+                from = order[from].1 as usize;
+            }
+            order[to].1 = from as u32;
+            links.swap(to, from);
+        }
+        self.order = order;
     }
 
     /// The first body of the island of a link that was sorted.

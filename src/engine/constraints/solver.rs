@@ -22,8 +22,8 @@ const ROUNDING: f64 = 1e-15;
 /// An island with held contacts and at most this many rows of joints is solved densely, which is faster there.
 const MOST_DENSE: usize = 32;
 
-/// Structures that are kept beside the present one. The stages of a tick have rows of their own, and those of the next tick find their
-/// structures again: rows of joints, those with held contacts, and both with all islands dense.
+/// Structures that are kept beside the present one. Each stage of a tick has rows of its own: joints alone, or with held contacts.
+/// Islands of those may be dense. The stages of the next tick find their structures again.
 const KEPT: usize = 3;
 
 /// A joint bears all that contacts leave. Its measure is so many times that of the contacts beside it. The square of

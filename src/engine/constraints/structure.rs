@@ -1,5 +1,5 @@
-//! The structure of the equations of some rows: islands, the blocks of the sparse factor, and the borders. It depends on the bodies
-//! that rows act on, and on no number.
+//! The structure of the equations of some rows: islands, the blocks of the sparse factor, and the borders. Only the bodies
+//! that rows act on decide it.
 
 use super::block_cholesky::BlockCholesky;
 use super::borders::Borders;

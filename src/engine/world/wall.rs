@@ -135,6 +135,14 @@ impl PackedWall {
         let crossing = before + (now - before) * (heights[0] / (heights[0] - heights[1]));
         (0.0..=length).contains(&(crossing - self.point).dot(self.normal.perp()))
     }
+
+    /// The distance in m of a point from the middle line of a wall with ends; infinite without ends.
+    pub fn distance_to_middle(&self, at: DVec2) -> f64 {
+        let Some(WallEnds { length, .. }) = self.ends else { return f64::INFINITY };
+        let offset = at - self.point;
+        let along = offset.dot(self.normal.perp());
+        DVec2::new(along - along.clamp(0.0, length), offset.dot(self.normal)).length()
+    }
 }
 
 #[cfg(test)]

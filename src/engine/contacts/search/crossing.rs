@@ -19,6 +19,7 @@ use glam::DVec2;
 use jostle_shapes::{Feature, Hull, Nearest, Pose, nearest};
 use serde::{Deserialize, Serialize};
 
+use super::clearance::Clearances;
 use super::slept::{Slept, pair_sleeps};
 use crate::contacts::{Probe, Surface, SurfacePair};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, demand, recall};
@@ -54,6 +55,9 @@ struct Crossings {
     slept_before: Slept,
     /// The sum of the greatest ways in m between those looks.
     path: f64,
+    /// They are found again in a run that goes on from a snapshot.
+    #[serde(skip)]
+    clearances: Clearances,
 }
 
 /// A probe near a hull or a line, at its last check.
@@ -123,7 +127,7 @@ impl Model for Crossings {
             self.look(state);
         }
         let State { bodies, pairs: Some(pairs), .. } = state else { return };
-        self.follow(bodies);
+        self.follow(bodies, self.way(bodies));
         let Self { before, before_round, slept_before, .. } = &mut *self;
         if has_ends(bodies) {
             note(before, slept_before, bodies, |atom| bodies.atom_place(atom));
@@ -163,20 +167,21 @@ impl Crossings {
         if self.slept.all_on(&state.bodies) {
             return;
         }
-        if let Some((body, wrong)) = self.first(&state.bodies) {
+        let way = self.way(&state.bodies);
+        if let Some((body, wrong)) = self.first(&state.bodies, self.path + way) {
             state.end_run(body, wrong);
         }
         let bodies = &state.bodies;
         if bodies.hulls.is_empty() && bodies.lines.is_empty() {
-            return self.slept.note(bodies);
+            return self.follow(bodies, way);
         }
         let margin = state.bounds.as_ref().map_or(f64::INFINITY, |bounds| bounds.margin);
-        if let Some((body, hull)) = self.passed_unlisted(bodies, margin) {
+        if let Some((body, hull)) = self.passed_unlisted(bodies, margin, way) {
             let other = bodies.entity[bodies.hulls[hull].body as usize];
             state.end_run(body, FailureKind::Crossed(other));
         }
         let bodies = &state.bodies;
-        self.follow(bodies);
+        self.follow(bodies, way);
         let path = self.path;
         let mut due = self.until.iter_mut().zip(&self.near).filter(|(until, _)| **until <= path);
         let wrong = due.find_map(|(until, watched)| {
@@ -222,8 +227,8 @@ impl Crossings {
         None
     }
 
-    fn passed_unlisted(&self, bodies: &Bodies, margin: f64) -> Option<(usize, usize)> {
-        let far = self.seen.len() == bodies.len() && self.way(bodies) > 0.5 * margin;
+    fn passed_unlisted(&self, bodies: &Bodies, margin: f64, way: f64) -> Option<(usize, usize)> {
+        let far = self.seen.len() == bodies.len() && way > 0.5 * margin;
         if far { self.through_any_hull(bodies) } else { None }
     }
 
@@ -257,12 +262,9 @@ impl Crossings {
         }
     }
 
-    /// Adds the greatest way of any point of a body since the last check.
-    fn follow(&mut self, bodies: &Bodies) {
-        if bodies.hulls.is_empty() && bodies.lines.is_empty() {
-            return self.slept.note(bodies);
-        }
-        self.path += self.way(bodies);
+    /// Adds the greatest way in m of any point of a body since the last check.
+    fn follow(&mut self, bodies: &Bodies, way: f64) {
+        self.path += way;
         if self.slept.roused(bodies) {
             self.until.iter_mut().filter(|until| **until == f64::INFINITY).for_each(|until| *until = self.path);
         }
@@ -279,11 +281,20 @@ impl Crossings {
     }
 
     /// The first body with an atom that has crossed a wall since, and how.
-    fn first(&self, bodies: &Bodies) -> Option<(usize, FailureKind)> {
+    /// `path` is the sum of ways at present, in m.
+    fn first(&mut self, bodies: &Bodies, path: f64) -> Option<(usize, FailureKind)> {
         // Without walls with ends no places were noted.
         if self.before.is_empty() {
             return None;
         }
+        let mut clearances = std::mem::take(&mut self.clearances);
+        clearances.keep_of(bodies);
+        let found = self.first_of(bodies, &mut clearances, path);
+        self.clearances = clearances;
+        found
+    }
+
+    fn first_of(&self, bodies: &Bodies, clearances: &mut Clearances, path: f64) -> Option<(usize, FailureKind)> {
         let moves = |body: &usize| bodies.dynamic[*body] && bodies.collides[*body];
         let atoms = self
             .slept
@@ -291,6 +302,10 @@ impl Crossings {
             .filter(moves)
             .flat_map(|body| bodies.atoms_of(body).map(move |atom| (body, atom)));
         for (body, atom) in atoms.filter(|(_, atom)| bodies.probes(*atom)) {
+            if clearances.hold(atom, path) {
+                continue;
+            }
+            clearances.look(bodies, atom, path);
             let (Some(&before), now) = (self.before.get(atom), bodies.atom_place(atom)) else { continue };
             let is_crossed = |wall: &usize| {
                 let wall = &bodies.walls[*wall];

@@ -10,6 +10,7 @@
 mod at_start;
 mod behind;
 mod cells;
+mod clearance;
 mod crossing;
 mod hulls;
 mod identity;
