@@ -216,7 +216,7 @@ impl EventStepper {
             }
         }
         let mut reach_of_lists = 1.5;
-        if flow.tick.reserve(until - from, reach_of_lists) {
+        if flow.tick.reserve(from, until - from, reach_of_lists) {
             self.begin(flow);
         }
         let mut made = self.attempt(flow, from, until);
@@ -231,7 +231,7 @@ impl EventStepper {
             flow.write(&self.state);
             flow.tick.recall_bounds();
             flow.tick.renew_lists(from);
-            flow.tick.reserve(until - from, reach_of_lists);
+            flow.tick.reserve(from, until - from, reach_of_lists);
             self.begin(flow);
             made = self.attempt(flow, from, until);
         }
@@ -243,7 +243,7 @@ impl EventStepper {
             reach_of_lists *= 4.0;
             flow.write(&self.state);
             flow.tick.renew_lists(from);
-            flow.tick.reserve(until - from, reach_of_lists);
+            flow.tick.reserve(from, until - from, reach_of_lists);
             self.begin(flow);
             made = self.attempt(flow, from, until);
         }

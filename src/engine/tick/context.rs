@@ -294,15 +294,15 @@ impl Tick<'_> {
         }
     }
 
-    /// Called before a step of `length` seconds from the state just evaluated. Candidate lists get a reach of `times`
-    /// the way that the current velocities and accelerations predict. Returns whether the state was evaluated for that.
-    pub fn reserve(&mut self, length: f64, times: f64) -> bool {
+    /// Called before a step of `length` seconds from the current state, that of `time` seconds. Candidate lists get a reach of `times`
+    /// the way that the current velocities and accelerations predict. Returns whether the state was evaluated for that. Another state
+    /// may have been evaluated last: prescribed bodies stand where that one had them.
+    pub fn reserve(&mut self, time: f64, length: f64, times: f64) -> bool {
         let reserve =
             |bounds: &mut Bounds, bodies: &Bodies| bounds.reserve(bodies, times * farthest_in(bodies, length));
         let State { bounds, bodies, .. } = &mut *self.state;
         let renew = bounds.as_mut().is_some_and(|bounds| reserve(bounds, bodies));
         if renew {
-            let time = self.state.evaluation.time;
             self.evaluate_stage(time);
         }
         renew
