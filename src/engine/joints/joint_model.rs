@@ -220,9 +220,10 @@ impl Joint {
             }
         });
         if gap > 0.0 && !self.setup.assemble && self.soft.is_none() {
-            let [a, b] = [pair.a.position, pair.b.position].map(|at| format!("({}, {})", number(at.x), number(at.y)));
+            let [a, way] = [pair.a.position, pair.between()].map(|at| format!("({}, {})", number(at.x), number(at.y)));
             let gap = number(gap);
-            let message = format!("the joint is open by {gap} m at the start: anchor a is at {a}, anchor b at {b}");
+            let message =
+                format!("the joint is open by {gap} m at the start: anchor a is at {a}, anchor b lies {way} m from it");
             let help = "move a body or an anchor, or let the joint close itself: `assemble: true`";
             self.mistake(world, message, help);
         }

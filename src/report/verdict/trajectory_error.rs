@@ -90,7 +90,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
     let elsewhere = evidence.world.get_resource::<EstimatedError>()?.elsewhere?;
     let what = format!(
-        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of both runs is right",
+        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of these two runs is right",
         number(elsewhere.tick),
         at(elsewhere.since),
         rough(elsewhere.distance)
@@ -103,7 +103,7 @@ pub(super) fn restless(evidence: &Evidence) -> Option<Cause> {
     let distance = evidence.world.get_resource::<EstimatedError>()?.restless?;
     let what = format!(
         "bodies rest that go up to {} m in a run with finer steps. Forces of contacts may hold them or not, and statics does not \
-         determine these forces. At most one of both runs is right",
+         determine these forces. At most one of these two runs is right",
         rough(distance)
     );
     Some(Cause { trust: Trust::Not, what, remedy: None })

@@ -30,8 +30,9 @@ use crate::tick::{Notes, State};
 use crate::world::{Bodies, Materials, Name, Position, Rotation};
 use jostle_language::numbers::number;
 
-/// Two sides touch at the start if the gap between them is at most this share of the smaller size. It is the last of nine digits.
-const TOUCHES: f64 = 1e-9;
+/// Two sides touch at the start if the gap between them is at most this share of the smaller size. That is a radius or half a width.
+/// The gap is a sum of four numbers of about that size. Numbers of six digits are known to 5e-6 of themselves.
+const TOUCHES: f64 = 2e-5;
 
 /// Moves the bodies that touch at the start into their equilibrium, and says by how much.
 pub(super) fn begin<N: NormalForce>(world: &mut World) {

@@ -15,6 +15,9 @@ use crate::world::Bodies;
 /// Friction that holds bears this share of its cone at most. The rest keeps rounding of later forces inside the cone.
 const OF_CONE: f64 = 1.0 - 1e-3;
 
+/// The share of the gap of sides that touch, up to which an overlap bears nothing. It leads to the last of nine digits of the size.
+const BEARS_NOTHING: f64 = 5e-5;
+
 /// Rounding of a place, as a share of its coordinates.
 const NOISE: f64 = 4.0 * f64::EPSILON;
 
@@ -26,7 +29,7 @@ pub(super) struct Part {
     pub other: Option<usize>,
     pub law: PairLaw,
     rolls: Option<SliderLaw>,
-    /// A gap in metres up to which the sides touch at the start.
+    /// A gap or an overlap in metres up to which the sides just touch at the start.
     pub touch: f64,
     /// Overlap at the start in metres.
     pub began: f64,
@@ -130,9 +133,9 @@ impl Candidate<'_> {
     }
 }
 
-/// The gap in metres below which two sides touch, where `nine_digits` are the last of nine digits of their size.
-pub(super) fn touch_gap(geometry: &PairGeometry, nine_digits: f64, bodies: &Bodies) -> f64 {
-    nine_digits + 4.0 * NOISE * place(geometry, bodies).abs().max_element()
+/// The gap in metres below which two sides touch, where `digits` are the last known ones of their size.
+pub(super) fn touch_gap(geometry: &PairGeometry, digits: f64, bodies: &Bodies) -> f64 {
+    digits + 4.0 * NOISE * place(geometry, bodies).abs().max_element()
 }
 
 /// The place of a pair in metres.
@@ -143,7 +146,7 @@ fn place(geometry: &PairGeometry, bodies: &Bodies) -> DVec2 {
 impl Part {
     /// A contact that holds as it stands, under the force of its spring. `None`: its law has no band of forces, or it just touches.
     pub fn as_placed(&self, set_valued: bool) -> Option<Begun> {
-        let holds = set_valued && self.law.inelasticity > 0.0 && self.level && self.began > self.touch;
+        let holds = set_valued && self.law.inelasticity > 0.0 && self.level && self.began > BEARS_NOTHING * self.touch;
         holds.then(|| Begun {
             pair: self.named,
             overlap: self.began,
@@ -164,6 +167,12 @@ impl Part {
     /// Whether the sides touch as the scene places them.
     pub fn touches_as_placed(&self) -> bool {
         self.began >= -self.touch
+    }
+
+    /// Whether the scene presses the sides into each other. The loads ask for the present overlap. One within the digits of the scene
+    /// counts only if it is more than that.
+    pub fn is_pressed(&self) -> bool {
+        self.began > self.touch || self.began > (BEARS_NOTHING * self.touch).max(self.now.overlap)
     }
 
     /// Its springs, whether it touches or not.

@@ -357,7 +357,7 @@ impl IslandSearch {
             let (began, now) = (part.began.max(0.0), part.now.overlap.max(0.0));
             (now - began).abs() <= band(part) * began + SAME * now
         };
-        let drawn = |part: &Part| part.began > part.touch && !bears_as_placed(part);
+        let drawn = |part: &Part| part.is_pressed() && !bears_as_placed(part);
         let stays = first
             || self.parts.iter().any(|part| foreign(part) || drawn(part))
             || self.parts.iter().all(bears_as_placed);
