@@ -51,11 +51,15 @@ impl Islands {
 
     /// Sorts small keys and then moves each link once, for links are large.
     fn sort_by_root<L: IslandLink>(&mut self, links: &mut [L], bodies: &Bodies) {
+        if links.len() < 2 {
+            return;
+        }
         let mut order = std::mem::take(&mut self.order);
         order.clear();
         order.extend(links.iter().enumerate().map(|(index, link)| (self.of(link, bodies), index as u32)));
-        order.sort_unstable();
-        for to in 0..order.len() {
+        let moved = if order.is_sorted() { 0 } else { order.len() };
+        order[..moved].sort_unstable();
+        for to in 0..moved {
             let mut from = order[to].1 as usize;
             // Earlier exchanges have taken it farther.
             while from < to {
