@@ -51,15 +51,14 @@ impl Islands {
 
     /// Sorts small keys and then moves each link once, for links are large.
     fn sort_by_root<L: IslandLink>(&mut self, links: &mut [L], bodies: &Bodies) {
-        if links.len() < 2 {
+        if links.is_sorted_by_key(|link| self.of(link, bodies)) {
             return;
         }
         let mut order = std::mem::take(&mut self.order);
         order.clear();
         order.extend(links.iter().enumerate().map(|(index, link)| (self.of(link, bodies), index as u32)));
-        let moved = if order.is_sorted() { 0 } else { order.len() };
-        order[..moved].sort_unstable();
-        for to in 0..moved {
+        order.sort_unstable();
+        for to in 0..order.len() {
             let mut from = order[to].1 as usize;
             // Earlier exchanges have taken it farther.
             while from < to {
