@@ -128,12 +128,14 @@ fn tolerances_see_the_push_of_a_table_that_turns() {
     for (spin, force) in [(0.2981, 30.87), (0.5, 60.0), (0.35, 25.0), (0.1, 12.0)] {
         let scene = |clock: &str| {
             format!(
-                "Scene(format: 1, clock: (duration: 0.08{clock}), gravity: (0, -9.81),
+                "Scene(format: 1, clock: (duration: 0.08{clock}), film: (fps: 100), gravity: (0, -9.81),
                     materials: {{ \"m\": (friction: (static: 1.011, dynamic: 0.1263), inelasticity: 0, stiffness: 137200) }},
                     bodies: [
                         (name: \"table\", at: (0, -0.5), kinematic: (spin: {spin:?}), material: \"m\",
                          shape: Rectangle(width: 20, height: 1)),
-                        (name: \"b\", at: (0.15, 0.06), mass: 0.28, material: \"m\", shape: Rectangle(width: 0.26, height: 0.12)),
+                        (name: \"b\", at: (0.14825132731062535, 0.07307665724175849), material: \"m\", inertia: Union,
+                         shape: Polygon(mass: 0.2772,
+                                        points: [(0.1299, 0), (-0.1578, -0.08689), (0, 0.06282), (0.05356, 0)])),
                     ],
                     forces: [Thrust(of: \"b\", force: (0, {force:?}), to: 0.0144)])"
             )

@@ -216,8 +216,9 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             let elsewhere = by_events.as_ref().map(|by_events| at_moments_of(&fine, by_events).apart(&fine));
             let elsewhere = elsewhere.filter(|other| other.distance.is_finite());
             let mut plan = reached(trials, chosen, tolerance, elsewhere.map_or(error, |other| error.max(other)));
-            let beyond = elsewhere.filter(|other| other.share > tolerance);
-            plan.warning = beyond.map(|other| beyond_by_events(tolerance, other));
+            if let Some(other) = elsewhere.filter(|other| other.share > tolerance) {
+                plan.warning = Some(beyond_by_events(tolerance, other));
+            }
             return Ok(plan);
         }
         let least = if climb.wary && before.is_none() { climb.finer } else { climb.finest_step };
