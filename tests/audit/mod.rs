@@ -13,6 +13,7 @@ mod fast_sensors;
 mod few_contacts;
 mod first_steps;
 mod friction_cones;
+mod gaps_at_zero;
 mod hidden_characters;
 mod impact;
 mod indeterminate;

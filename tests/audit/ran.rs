@@ -76,3 +76,21 @@ impl Ran {
         apart.fold(0.0, f64::max)
     }
 }
+
+/// Rounding of places of some metres over thousands of steps, in m.
+const ROUNDING: f64 = 1e-12;
+
+/// All trusted runs of a scene agree. At least `trusted` of them are.
+pub fn demand_agreement(name: &str, clocks: &[&str], trusted: usize, scene: impl Fn(&str) -> String) {
+    let ran =
+        |clock: &str| (run(&scene(clock), 1).unwrap_or_else(|why| panic!("{name}{clock}: {why}")), clock.to_owned());
+    let runs: Vec<_> = clocks.iter().map(|clock| ran(clock)).filter(|(ran, _)| ran.is_trusted()).collect();
+    assert!(runs.len() >= trusted, "{name}: only {} runs are trusted", runs.len());
+    for (index, (one, clock)) in runs.iter().enumerate() {
+        for (other, beside) in &runs[..index] {
+            let stated = [one, other].into_iter().filter_map(|ran| ran.stated()).map(|stated| stated.0).sum::<f64>();
+            let (apart, most) = (one.apart(other), 3.0 * stated + ROUNDING);
+            assert!(apart <= most, "{name}:{clock} and{beside} are {apart:e} m apart and state {stated:e}");
+        }
+    }
+}

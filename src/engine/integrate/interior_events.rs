@@ -16,7 +16,7 @@
 //! estimate of the error of that cubic. Without rates, the values at the stages of the step give it by second
 //! differences. Stages are less exact than the step, so they only suggest moments at which the step is evaluated.
 
-use super::locate::{IndicatorSample, cubic, vanished};
+use super::locate::{IndicatorSample, cubic, is_open, vanished};
 use crate::tick::Indicator;
 
 /// Looks into one step.
@@ -126,7 +126,7 @@ impl Inside {
             .indicators
             .iter()
             .zip(&self.samples[0].indicators)
-            .any(|(now, begin)| vanished(now) && begin.value > 0.0)
+            .any(|(now, begin)| vanished(now) && is_open(begin, self.length))
         {
             self.samples.truncate(index);
         }
@@ -153,13 +153,15 @@ fn suspect(from: &IndicatorSample, to: &IndicatorSample, length: f64) -> Option<
     let meet = |(a, b): (&Indicator, &Indicator)| {
         let known = !(a.slope.is_nan() || b.slope.is_nan());
         let seconds = way * length;
+        let open = is_open(a, seconds);
+        let a = &Indicator { value: if open { a.value.max(0.0) } else { a.value }, ..*a };
         let bend = match (a.bend.within(seconds), b.bend.within(seconds)) {
             (Some(first), Some(second)) => (first.max(second) + (first - second).abs()) * length * length,
             // Steps resolve the swings of springs: their indicators lie above the tangents at both ends.
             _ if known && (a.swings > 0.0 || b.swings > 0.0) => 0.0,
             _ => return fitted(a, b, seconds).filter(|_| known).map(|at| from.share + at * way),
         };
-        if a.value > 0.0 && (vanished(b) || !known && b.value < 0.0) {
+        if open && (vanished(b) || !known && b.value < 0.0) {
             let several =
                 if known { returns([a, b], bend, (way, length)) } else { a.value - b.value < 0.5 * bend * way * way };
             return several.then_some(from.share + 0.5 * way);
@@ -258,6 +260,7 @@ fn dip(course: &[(f64, f64)]) -> Option<f64> {
 
 #[cfg(test)]
 mod tests {
+    use super::super::locate::Bracket;
     use super::*;
     use crate::tick::Bend;
 
@@ -309,6 +312,40 @@ mod tests {
         let height = |t: f64| Indicator::new(0.1 + 3.0 * t - 2.0 * t * t, 3.0 - 4.0 * t, Bend::AtMost(4.0));
         let (_, high, looks) = look(|t| vec![height(t)]);
         assert!(high.share == 1.0 && looks == 0, "{looks}");
+    }
+
+    /// An event leaves a gap at zero, and rounding puts it below. The gap opens, closes inside the step, and is open at its end.
+    #[test]
+    fn a_gap_that_begins_a_rounding_below_zero_closes_again_inside_a_step() {
+        for below in [0.0, 7e-18, 1e-12] {
+            let gap = |t: f64| {
+                let (value, slope) = (t * (t - 0.1) * (t - 0.6) - below, (3.0 * t - 1.4) * t + 0.06);
+                vec![Indicator::new(value, slope, Bend::AtMost(1.4))]
+            };
+            let (low, high, looks) = look(gap);
+            assert!(low.share < 0.1 && (0.1..0.6).contains(&high.share), "{below}: {low:?} {high:?} {looks}");
+            let mut bracket = Bracket::between(&gap(0.0), low, high, 1.0).expect("it closes");
+            while let Some(share) = bracket.next() {
+                bracket.narrow(IndicatorSample { share, indicators: gap(share) });
+            }
+            let (share, fired) = (bracket.share(), bracket.fired(&gap(bracket.share())));
+            assert!((share - 0.1).abs() < 1e-10 && fired == [0], "{below}: {share} {fired:?}");
+        }
+    }
+
+    /// Sides that just touch and approach part again inside the step.
+    #[test]
+    fn a_gap_that_begins_at_zero_and_closes_is_seen_at_once() {
+        for below in [0.0, 7e-18] {
+            let gap = |t: f64| vec![Indicator::new(t * (t - 0.3) - below, 2.0 * t - 0.3, Bend::AtMost(0.0))];
+            let (low, high, looks) = look(gap);
+            let mut bracket = Bracket::between(&gap(0.0), low, high, 1.0).expect("it closes");
+            while let Some(share) = bracket.next() {
+                bracket.narrow(IndicatorSample { share, indicators: gap(share) });
+            }
+            let (share, fired) = (bracket.share(), bracket.fired(&gap(bracket.share())));
+            assert!(share < 1e-6 && fired == [0] && looks < 3, "{below}: {share} {fired:?} {looks}");
+        }
     }
 
     /// A way along a surface, so near that two dozen evaluations cannot distinguish it from touching.

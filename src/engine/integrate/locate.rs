@@ -17,6 +17,9 @@ const MOST_GUESSES: u32 = 80;
 const MOST_HALVINGS: u32 = 24;
 /// Guesses in a row on one side of the event, after which the bracket is halved.
 const MOST_ON_ONE_SIDE: i32 = 3;
+/// An indicator begins at zero if its rate leads from there within this share of a step. An event leaves the indicators that begin
+/// with it at zero, and rounding puts them below.
+const AT_ONCE: f64 = 1e-6;
 
 /// The indicators at a share of a step.
 #[derive(Clone, Debug)]
@@ -36,8 +39,8 @@ pub struct Bracket {
     high: IndicatorSample,
     /// Greatest value of each indicator at both ends of the step.
     scale: Vec<f64>,
-    /// The indicators that were above zero at the beginning.
-    above: Vec<bool>,
+    /// The indicators that are not below zero at the beginning.
+    open: Vec<bool>,
     /// The indicators that were below zero at a look after that.
     crossing: Vec<bool>,
     /// The share tried last.
@@ -60,7 +63,7 @@ impl Bracket {
         Some(Self {
             length,
             scale: begin.iter().zip(&high.indicators).map(|(a, b)| a.value.abs().max(b.value.abs())).collect(),
-            above: begin.iter().map(|indicator| indicator.value > 0.0).collect(),
+            open: begin.iter().map(|indicator| is_open(indicator, length)).collect(),
             tried: high.share,
             low,
             high,
@@ -86,7 +89,7 @@ impl Bracket {
         let mut beyond = false;
         let (mut met, mut passed) = (false, false);
         for (index, indicator) in sample.indicators.iter().enumerate() {
-            if vanished(indicator) && self.above[index] {
+            if vanished(indicator) && self.open[index] {
                 self.crossing[index] = true;
             }
             if self.crossing[index] {
@@ -110,10 +113,12 @@ impl Bracket {
         if self.met { self.tried } else { self.high.share }
     }
 
-    /// The indicators that vanish together at the end of the step, whose values are given.
+    /// The indicators that vanish together at the end of the step, whose values are given. One that is above zero and rises has its
+    /// event later in the step.
     pub fn fired(&self, indicators: &[Indicator]) -> Vec<usize> {
         let zero = |index: usize| indicators[index].rounding.max(ZERO * self.scale[index]);
-        let vanishes = |index: &usize| indicators[*index].value <= zero(*index);
+        let rises = |indicator: &Indicator| indicator.value > 0.0 && indicator.slope > 0.0;
+        let vanishes = |index: &usize| indicators[*index].value <= zero(*index) && !rises(&indicators[*index]);
         (0..indicators.len()).filter(|&index| self.crossing[index]).filter(vanishes).collect()
     }
 
@@ -150,6 +155,13 @@ impl Bracket {
 /// Whether an indicator is below zero by more than rounding.
 pub fn vanished(indicator: &Indicator) -> bool {
     indicator.value < -indicator.rounding
+}
+
+/// Whether an indicator is above zero or at zero at the beginning of a step of `length` seconds. Below zero inside the step, it has
+/// vanished. One that begins farther below waits for another event, and one of unknown rate does so from zero on.
+pub fn is_open(begin: &Indicator, length: f64) -> bool {
+    begin.value > 0.0
+        || begin.value.abs() <= begin.rounding.max(AT_ONCE * length * begin.slope.abs()) && !begin.is_sampled()
 }
 
 /// Value of the cubic through both ends at `share`.
@@ -225,6 +237,14 @@ mod tests {
         let three = |t: f64| vec![unknown(1.0 - t), unknown(0.25 - t * t), known(0.5 - t, -1.0), unknown(1.0)];
         let (time, fired, _) = find(three, 2.0).expect("a root");
         assert!((time - 0.5).abs() < 1e-14 && fired == [1, 2], "{time} {fired:?}");
+    }
+
+    /// Two contacts begin at one moment. The force of one grows from a rounding, and ends within the step. That of the other ends at once.
+    #[test]
+    fn one_that_rises_from_zero_does_not_fire_with_one_that_falls() {
+        let two = |t: f64| vec![known(1e-13 + 3.0 * t * (0.5 - t), 1.5 - 6.0 * t), known(1e-14 - 9.0 * t, -9.0)];
+        let (time, fired, _) = find(two, 1.0).expect("a root");
+        assert!(time < 1e-13 && fired == [1], "{time} {fired:?}");
     }
 
     #[test]
