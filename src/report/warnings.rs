@@ -85,9 +85,14 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     warnings.extend(departures.map(|departure| format!("{}. Use {}", departure.what, departure.remedy)));
     let located = state.located();
     if located.given_up > 0 {
+        let excluded = match located.excluded {
+            0 => String::new(),
+            1 => ", or contacts excluded each other (once)".to_owned(),
+            times => format!(", or contacts excluded each other ({times} times)"),
+        };
         warnings.push(format!(
-            "in {} of {} ticks there were too many events to locate them all. Velocity Verlet made these ticks: its order is 2, and 1 \
-             if forces jump",
+            "in {} of {} ticks there were too many events to locate them all{excluded}. Velocity Verlet made these ticks: its order is \
+             2, and 1 if forces jump",
             located.given_up, clock.ticks,
         ));
     }

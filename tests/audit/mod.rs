@@ -23,6 +23,7 @@ mod lifted_boxes;
 mod messages;
 mod other_kind;
 mod partial_slip;
+mod pushed_boxes;
 mod ran;
 mod reading_cost;
 mod releases;

@@ -63,7 +63,6 @@ fn note(setting: &Setting) -> String {
                 FailureKind::Contradiction => {
                     format!("motors and joints ask for different motions of `{}`", failure.body)
                 }
-                FailureKind::Pulls => format!("a contact or a limit of `{}` would have to pull", failure.body),
                 FailureKind::Joint { meters, .. } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
                 FailureKind::Energy(_) => "energy comes out of nowhere".to_owned(),
                 FailureKind::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),

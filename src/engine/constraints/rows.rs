@@ -167,13 +167,11 @@ impl Rows {
         self.answer = answer;
     }
 
-    /// The row that only pushes and would have to pull most. Rounding is a small share of all forces together.
-    pub fn pulling(&self) -> Option<&Row> {
-        let pull = |(row, force): (&Row, &f64)| -row.pushes * force;
-        let pulls = self.rows.iter().zip(&self.answer).map(pull).enumerate();
-        let (index, worst) = pulls.max_by(|a, b| a.1.total_cmp(&b.1))?;
+    /// Whether a row that only pushes would have to pull. Rounding is a small share of all forces together.
+    pub fn would_pull(&self) -> bool {
+        let pulls = self.rows.iter().zip(&self.answer).map(|(row, force)| -row.pushes * force);
         let all: f64 = self.answer.iter().map(|force| force.abs()).sum();
-        (worst > PULL * all).then(|| &self.rows[index])
+        pulls.fold(0.0, f64::max) > PULL * all
     }
 
     /// The sum of the absolute accelerations (m/s2 or rad/s2) of a row by the forces of each of these rows. Rounding is

@@ -107,7 +107,8 @@ impl EventOverload {
         self.left = self.left.saturating_sub(1);
         let (until, length) = (tick.end, tick.end - from);
         let fastest = tick.state().time_scales().fastest.map_or(0.0, |fastest| fastest.angular_frequency);
-        let parts = (length * fastest / FINE).ceil().max(1.0);
+        // A stretch that begins at the end of a tick has nothing to do in it.
+        let parts = if length > 0.0 { (length * fastest / FINE).ceil().max(1.0) } else { 0.0 };
         let mut begin = from;
         let mut part = 0.0;
         while part < parts {

@@ -8,12 +8,13 @@
 
 use glam::DVec2;
 
+mod dead_ends;
 mod inner_looks;
 mod saved;
 
 use saved::Remembered;
 
-use super::control::{Allowance, Control, MOST_STEPS};
+use super::control::{Allowance, Control};
 use super::event_free_ticks::EventFreeTicks;
 use super::event_overload::EventOverload;
 use super::interior_events::{Inside, StageValues};
@@ -33,9 +34,6 @@ const EVENTS_PER_FRAME: u32 = 16;
 /// The number of times that a step is repeated with lists of a larger reach. Each time the reach is four times as
 /// large. If bodies outgrow them all, their motion is beyond all bounds, and the run ends with an error.
 const MOST_RENEWALS: u32 = 16;
-
-/// Steps between two looks at how far they lead.
-const STEPS_BETWEEN_LOOKS: u64 = 4096;
 
 /// The number of times that a step is repeated because its error was too large. After that it is accepted, and the
 /// error of the run shows it.
@@ -397,8 +395,8 @@ impl EventStepper {
         if edge < end { (edge, true) } else { (end, false) }
     }
 
-    /// Goes to the end of the step that was made.
-    fn finish(&mut self, tick: &mut Tick, made: Made) {
+    /// Goes to the end of the step that was made. Returns whether contacts and limits have found their modes there.
+    fn finish(&mut self, tick: &mut Tick, made: Made) -> bool {
         let mut flow = WorldFlow::new(tick);
         if let Some(shown) = &made.shown {
             add(&self.state, &self.rest, &self.work.change, &mut self.work.trial);
@@ -416,7 +414,7 @@ impl EventStepper {
             self.forget();
         }
         let velocity_error = self.control.as_ref().map_or(0.0, Control::velocity_error);
-        tick.end_step(&made.fired, velocity_error);
+        tick.end_step(&made.fired, velocity_error)
     }
 
     /// Shows the state at the end of the tick, inside a step that extends beyond it.
@@ -458,19 +456,6 @@ impl EventStepper {
             tick.evaluate_stage(tick.begin);
         }
         None
-    }
-}
-
-impl EventStepper {
-    /// Whether steps have become so short that the end of the tick, at `end` seconds, is out of reach.
-    fn leads_nowhere(&mut self, now: f64, end: f64) -> bool {
-        self.steps += 1;
-        if !self.steps.is_multiple_of(STEPS_BETWEEN_LOOKS) {
-            return false;
-        }
-        let way = now - std::mem::replace(&mut self.looked, now);
-        let most = self.control.as_ref().map_or(MOST_STEPS, Control::most_steps);
-        STEPS_BETWEEN_LOOKS as f64 * (end - now) > most * way
     }
 }
 
@@ -540,7 +525,9 @@ impl Integrator for EventStepper {
         let (mut events, mut part) = (0, 0);
         if self.overload.follows() && self.overload.ends(tick) {
             self.overload.end();
-            tick.begin_stages(EvaluationMode::Frozen);
+            if !tick.begin_stages(EvaluationMode::Frozen) {
+                self.exclude(tick, now);
+            }
         }
         let mut under_way = self.resume(tick);
         while now < end && !self.overload.follows() {
@@ -574,7 +561,11 @@ impl Integrator for EventStepper {
                 tick.give_up(step);
                 break;
             }
-            if made.until > end { self.show(tick, made) } else { self.finish(tick, made) }
+            if made.until > end {
+                self.show(tick, made);
+            } else if !self.finish(tick, made) {
+                self.exclude(tick, now);
+            }
         }
         let overloaded = self.overload.follows();
         if overloaded {

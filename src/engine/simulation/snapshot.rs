@@ -19,7 +19,7 @@ use jostle_language::digest;
 const MAGIC: &[u8; 16] = b"jostle snapshot\n";
 
 /// Counts changes of what snapshots hold.
-const FORMAT: u32 = 4;
+const FORMAT: u32 = 5;
 
 /// A run between two ticks. See [`Simulation::snapshot`].
 #[derive(Clone, PartialEq, Eq)]

@@ -250,8 +250,8 @@ impl Tick<'_> {
     }
 
     /// Called after a step was accepted and its last state evaluated. Modes whose indicators vanished change, and the
-    /// state is ready for the next step.
-    pub fn end_step(&mut self, fired: &[usize], velocity_error: f64) {
+    /// state is ready for the next step. Returns whether all rows that only push do so. If not, no choice of modes was found.
+    pub fn end_step(&mut self, fired: &[usize], velocity_error: f64) -> bool {
         let time = self.state.evaluation.time;
         self.state.evaluation.velocity_error = velocity_error;
         if !fired.is_empty() {
@@ -279,10 +279,7 @@ impl Tick<'_> {
             self.settle();
         }
         self.tidy(time);
-        if let Some(row) = self.state.rows.pulling() {
-            let body = row.sides.iter().flatten().map(|side| side.body).rfind(|body| self.state.bodies.dynamic[*body]);
-            self.state.end_run(body.unwrap_or_default(), FailureKind::Pulls);
-        }
+        !self.state.rows.would_pull()
     }
 
     /// Lets models book their modes that have changed, and stop the bodies that these hold.

@@ -70,8 +70,6 @@ pub enum FailureKind {
     Sunk(Entity),
     /// Motors and joints ask for different motions of a body.
     Contradiction,
-    /// A contact or a limit of this body would have to pull. No choice of modes lets go of it.
-    Pulls,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
     Pairs(usize),
     /// A system has changed the length of this packed list, or put another value into it that does not fit. Bodies were read from
@@ -167,11 +165,6 @@ impl std::fmt::Display for Failure {
             FailureKind::Contradiction => {
                 write!(f, "motors and joints ask for different motions of `{body}`")?;
                 ": no velocity suits them all. Give a motor a `limit`".to_owned()
-            }
-            FailureKind::Pulls => {
-                write!(f, "a contact or a limit of `{body}` would have to pull")?;
-                ": its contacts exclude each other. Use `method: VelocityVerlet`, or give bodies another `restitution`"
-                    .to_owned()
             }
             FailureKind::Energy(Created { energy, put_in }) => {
                 write!(

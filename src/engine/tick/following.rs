@@ -15,12 +15,12 @@ impl Tick<'_> {
         self.part(time, time, |tick| tick.evaluate(0.0));
     }
 
-    /// From the beginning of the tick on, states are stages of steps again.
-    pub fn begin_stages(&mut self, mode: EvaluationMode) {
+    /// From the beginning of the tick on, states are stages of steps again. Returns whether contacts and limits have found modes.
+    pub fn begin_stages(&mut self, mode: EvaluationMode) -> bool {
         self.change_mode(mode);
         self.begin_anew();
         // The cost of the change is booked.
-        self.end_step(&[], 0.0);
+        self.end_step(&[], 0.0)
     }
 
     fn change_mode(&mut self, mode: EvaluationMode) {

@@ -79,8 +79,10 @@ impl Progress {
 pub struct LocatedEvents {
     /// Events.
     pub count: u64,
-    /// Ticks that continued under velocity Verlet, because contacts were too many.
+    /// Ticks that continued under velocity Verlet, because contacts were too many or excluded each other.
     pub given_up: u64,
+    /// Moments at which contacts or limits excluded each other: no choice of modes lets all of them push.
+    pub excluded: u64,
 }
 
 /// How many steps were made, and how long they were.
