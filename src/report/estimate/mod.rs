@@ -12,6 +12,7 @@ mod other_kind;
 mod rounding;
 mod twins;
 pub mod validation;
+mod wedged;
 mod work;
 
 use bevy_ecs::prelude::*;
@@ -83,6 +84,8 @@ pub struct EstimatedError {
     pub elsewhere: Option<Elsewhere>,
     /// The way in metres, in a finer run, of bodies that rest in this one. `None`: their springs give as much.
     pub restless: Option<f64>,
+    /// Whether the error counts more than runs with other steps tell.
+    pub raised: bool,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,
     /// Further notes on it.
@@ -93,11 +96,31 @@ pub struct EstimatedError {
 const SMALL: f64 = 1e-2;
 
 impl EstimatedError {
+    /// Raises the error of finite steps to at least `distance` metres and `speed` m/s. Bodies go as far as `motion` metres. Returns
+    /// whether the error of places was smaller, and known.
+    fn raise(&mut self, distance: f64, speed: f64, motion: f64) -> bool {
+        let Some(error) = &mut self.estimate else { return false };
+        let most = |part: &mut Option<f64>, value: f64| {
+            let smaller = part.is_some_and(|old| old < value);
+            *part = part.map(|old| old.max(value));
+            smaller
+        };
+        most(&mut error.velocity.discretisation, speed);
+        let raised = most(&mut error.position.discretisation, distance);
+        if raised {
+            self.raised = true;
+            self.share = self.share.map(|share| share.max(distance / motion));
+        }
+        raised
+    }
+
     /// Whether events are located and the error of the whole run is known to be small. Then no rule of thumb calls its
     /// tick too long.
     pub fn is_small(world: &World) -> bool {
         let located = world.get_resource::<ChosenMethod>().is_some_and(|method| method.located);
-        let small = |found: &Self| found.known_until.is_none() && found.share.is_some_and(|share| share < SMALL);
+        let rests = |found: &Self| found.restless.is_none() && stands(world.resource());
+        let is_small = |found: &Self| found.share.map_or_else(|| rests(found), |share| share < SMALL);
+        let small = |found: &Self| found.known_until.is_none() && is_small(found);
         located && world.get_resource::<Self>().is_some_and(small)
     }
 }
@@ -188,6 +211,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Re
         discretisation(simulation, &run, wanted.effort, scene, &mut found)?;
     }
     other_kind::check(simulation, &run, wanted.effort, scene, &mut found)?;
+    wedged::add(simulation, &run, &mut found);
     if wanted.rounding {
         rounding::estimate(simulation, &run, scene, &mut found)?;
     }

@@ -39,6 +39,8 @@ pub struct Elsewhere {
     pub since: f64,
     /// The greatest distance of places in m.
     pub distance: f64,
+    /// The same as a share of how far bodies go. Infinite if the runs were compared over a part of the time.
+    pub share: f64,
     /// The tick of velocity Verlet in s.
     pub tick: f64,
 }
@@ -147,12 +149,9 @@ pub(super) fn check(
         number(since),
         rough(distance)
     ));
-    found.elsewhere = Some(Elsewhere { since, distance, tick });
-    if let Some(error) = &mut found.estimate {
-        let most = |part: &mut Option<f64>, value: f64| *part = Some(part.map_or(value, |old| old.max(value)));
-        most(&mut error.position.discretisation, distance);
-        most(&mut error.velocity.discretisation, speed);
-    }
+    let share = if until == ticks { distance / run.sizes().0 } else { f64::INFINITY };
+    found.elsewhere = Some(Elsewhere { since, distance, share, tick });
+    found.raise(distance, speed, run.sizes().0);
     Ok(())
 }
 

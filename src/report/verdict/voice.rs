@@ -94,6 +94,9 @@ fn praise(evidence: &Evidence) -> String {
         if card.has_tolerance() {
             return format!("Trust it: {places}, as several runs tell.");
         }
+        if evidence.world.get_resource::<EstimatedError>().is_some_and(|estimated| estimated.raised) {
+            return format!("Trust it: {places} at most. A note on the card tells why it is not less.");
+        }
         return format!(
             "Trust it: {places} at most. A run with a hundred times the tolerance differs by so much. If the motion is \
              smooth, the error is about a hundredth of that."

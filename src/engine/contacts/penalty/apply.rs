@@ -22,6 +22,7 @@ use super::rolling::RollingContacts;
 use super::search_schedule::SearchSchedule;
 use super::surfaces::follow_surfaces;
 use super::switching::Told;
+use super::wedged::Wedged;
 use crate::constraints::Rows;
 use crate::contacts::Touches;
 use crate::contacts::geometry::{ContactEnd, PairGeometry, Shares, SideA, arms};
@@ -72,6 +73,12 @@ pub struct PenaltyContacts {
     pub(super) slid: f64,
     /// Contacts that begin in equilibrium, until the first evaluation.
     pub(super) begun: Vec<Begun>,
+    /// Contacts whose normal motion ended at the last event.
+    #[serde(skip)]
+    pub(super) turned: Vec<u32>,
+    /// The estimate of the error counts it, and a run from a snapshot has none.
+    #[serde(skip)]
+    pub(super) wedged: Option<Wedged>,
 }
 
 impl Default for PenaltyContacts {
@@ -99,6 +106,8 @@ impl Default for PenaltyContacts {
             released: Vec::new(),
             slid: 0.0,
             begun: Vec::new(),
+            turned: Vec::new(),
+            wedged: None,
         }
     }
 }

@@ -45,6 +45,7 @@ mod surfaces;
 mod switching;
 mod waking;
 mod watched;
+pub mod wedged;
 
 use bevy_app::App;
 use bevy_ecs::world::World;

@@ -11,6 +11,7 @@ use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
 use super::switching::View;
+use super::wedged::Wedged;
 use super::{
     Penalty, RollingLaw, TangentialLaw, contact_stages, features, handover, limits, meetings, saved, search_schedule,
     standing, watched,
@@ -37,6 +38,11 @@ impl PenaltyState {
     /// The contacts at rest, for the card.
     pub fn at_rest(&self, state: &State) -> AtRest {
         at_rest::look(&self.contacts, state)
+    }
+
+    /// The body that came to rest in one of several ways and gives most, if there is one.
+    pub fn wedged(&self) -> Option<Wedged> {
+        self.contacts.wedged
     }
 
     /// The section of the scene for contacts.

@@ -50,8 +50,10 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
             // Sides that do not slide have the speed that the springs give back from this overlap as their scale.
             let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
             let rounding = ROUNDING * (geometry.speed(shares) + swing);
+            let mut joined = false;
             if N::SET_VALUED && moves::<N>(&contact, law) && geometry.parting().abs() <= rounding.max(error) {
                 contact.mode = Mode::Hold;
+                joined = true;
             }
             let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
             let grips = slides && geometry.sliding(shares).abs() <= rounding;
@@ -60,6 +62,9 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
             }
             let (holds, slider) = (contact.mode == Mode::Hold, contact.tangential);
             drop(contact);
+            if joined {
+                view.contacts.turned.push(index as u32);
+            }
             if grips {
                 view.note_stopped(index, slider);
             }

@@ -204,6 +204,7 @@ impl View<'_> {
             }
         }
         let stopped = self.contacts.stopped.clone();
+        self.contacts.turned.clone_from(&turned);
         standing::stop_together::<N>(self, &stopped, 0.0);
         standing::stop_together::<N>(self, &turned, error);
         ledger.friction.add(slid);

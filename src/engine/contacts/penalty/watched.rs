@@ -117,8 +117,12 @@ impl<N: NormalForce> Events for Contacts<N> {
         };
         let PenaltyState { contacts, rolling } = &mut self.own;
         let times = (evaluation.time, clock.dt);
-        !contacts.is_idle()
-            && switching::tidy((bodies, ledger, rows), times, (pairs, contacts, rolling.as_mut()), deepest)
+        if contacts.is_idle() {
+            return false;
+        }
+        let moved = switching::tidy((bodies, ledger, rows), times, (pairs, contacts, rolling.as_mut()), deepest);
+        View { bodies, pairs, contacts, rolling: rolling.as_mut() }.note_wedged::<N>(times.0);
+        moved
     }
 
     fn hand_over(&mut self, state: &State, mode: EvaluationMode) {
