@@ -242,7 +242,12 @@ impl Card {
 
     /// Whether its steps were chosen for an error that was asked for.
     pub(super) fn has_tolerance(&self) -> bool {
-        self.asked.flatten().is_some()
+        self.tolerance().is_some()
+    }
+
+    /// The error that its user allows, as a share of how far and how fast bodies go.
+    pub(super) fn tolerance(&self) -> Option<f64> {
+        self.asked.flatten()
     }
 
     /// Whether its steps are its ticks, of the requested length.

@@ -9,6 +9,10 @@ use jostle_language::numbers::{number, rough};
 /// A smaller error of places, as a share of how far bodies go, is no cause for doubt.
 const INEXACT: f64 = 1e-2;
 
+/// The same for the distance to runs of the other kind, if the user allows no error. It is below the third digit of places, which
+/// films and tables show.
+const CONTRADICTS: f64 = 1e-4;
+
 /// The run does not reach the tolerance that its user asked for.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
     let missed = evidence.card.missed.clone().filter(|_| !evidence.card.stands)?;
@@ -86,9 +90,13 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     })
 }
 
-/// Runs of the other kind contradict the run: at most one of both is right.
+/// Runs of the other kind contradict the run: at most one of both is right. The stated error counts their distance. So one that is
+/// small enough for the user is no cause for doubt.
 pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
     let elsewhere = evidence.world.get_resource::<EstimatedError>()?.elsewhere?;
+    if elsewhere.share <= evidence.card.tolerance().unwrap_or(CONTRADICTS) {
+        return None;
+    }
     let what = format!(
         "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of these two runs is right",
         number(elsewhere.tick),
