@@ -20,6 +20,7 @@ mod indeterminate;
 mod landings;
 mod letting_go;
 mod lifted_boxes;
+mod loose_tolerances;
 mod messages;
 mod other_kind;
 mod partial_slip;

@@ -4,7 +4,7 @@
 //!
 //! Law: a body that bounces to rest in a corner does so in one of several ways, and the stated error counts the depth of its springs.
 
-use super::ran::demand_agreement;
+use super::ran::{demand_agreement, run};
 
 const CLOCKS: [&str; 6] = [
     ", tolerance: 1e-3",
@@ -71,4 +71,15 @@ fn a_box_in_a_corner_stays_there_when_its_push_ends() {
             pressed(size, restitution, clock)
         });
     }
+}
+
+#[test]
+fn a_tolerance_that_all_runs_of_a_corner_miss_alike_is_not_said_to_be_reached() {
+    let told = |clock: &str| run(&pressed(0.02, 0.1, clock), 1).expect("a run to its end").card.verdict;
+    let (tight, finest) = (told(", tolerance: 1e-7"), told(", method: Reference"));
+    assert!(tight.contains("Do not trust its last digits: the tolerance of 1e-7 is not reached"), "{tight}");
+    assert!(
+        finest.starts_with("Trust it: places to about") && finest.contains("at most. A note on the card tells why"),
+        "{finest}"
+    );
 }

@@ -84,8 +84,8 @@ pub struct EstimatedError {
     pub elsewhere: Option<Elsewhere>,
     /// The way in metres, in a finer run, of bodies that rest in this one. `None`: their springs give as much.
     pub restless: Option<f64>,
-    /// Whether the error counts more than runs with other steps tell.
-    pub raised: bool,
+    /// The error as a share of how far bodies go, if it counts more than runs with other steps tell.
+    pub raised: Option<f64>,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,
     /// Further notes on it.
@@ -108,8 +108,9 @@ impl EstimatedError {
         most(&mut error.velocity.discretisation, speed);
         let raised = most(&mut error.position.discretisation, distance);
         if raised {
-            self.raised = true;
-            self.share = self.share.map(|share| share.max(distance / motion));
+            let raised = distance / motion;
+            self.raised = Some(self.raised.map_or(raised, |old| old.max(raised)));
+            self.share = self.share.map(|share| share.max(raised));
         }
         raised
     }

@@ -91,10 +91,12 @@ fn praise(evidence: &Evidence) -> String {
     }
     let places = places(card).unwrap_or_default();
     if card.has_trials() {
-        if card.has_tolerance() {
+        let raised =
+            evidence.world.get_resource::<EstimatedError>().is_some_and(|estimated| estimated.raised.is_some());
+        if card.has_tolerance() && !raised {
             return format!("Trust it: {places}, as several runs tell.");
         }
-        if evidence.world.get_resource::<EstimatedError>().is_some_and(|estimated| estimated.raised) {
+        if raised {
             return format!("Trust it: {places} at most. A note on the card tells why it is not less.");
         }
         return format!(

@@ -33,6 +33,9 @@ const OTHER_STEPS: f64 = 1.0 / 1.37;
 const ALIKE: f64 = 0.01;
 /// Then a run with this share of the fineness is the finer one. Its steps of order eight are less than half as long.
 const OWN_STEPS: f64 = 1e-3;
+/// Steps of so large an error are too long for it to fall by their order. Events give it either sign, so two runs may agree by
+/// chance. A much finer one confirms that they do.
+const LOOSE: f64 = 1e-5;
 /// A predicted error aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
 /// A prediction is confirmed if the result exceeds it by at most this factor, because errors of located events scatter.
@@ -181,6 +184,13 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             next = climb.down_to(next * OWN_STEPS);
             fine = trials.run(next, "a run with steps of its own", |_| {})?;
             apart = apart.max(coarse.apart(&fine));
+        } else if trials.ladder == Ladder::Allowed
+            && fine.jumped
+            && next >= LOOSE
+            && apart.share <= climb.measured * tolerance
+        {
+            let other = trials.run(next * OWN_STEPS, "a run with much finer steps", |_| {})?;
+            apart = apart.max(coarse.apart(&other));
         }
         let difference = apart.share;
         let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
