@@ -219,6 +219,7 @@ impl Set<'_> {
         // A film that is kept aside first is opened when it is played.
         let mut film = if spool.is_none() { Some(self.open().map_err(|error| order.refuse(&error))?) } else { None };
         interrupt::arm();
+        interrupt::reach_into(simulation);
         let progress = Progress::new(schedule.frames(), "frames", order.silent);
         let mut recorder = Recorder::default();
         let recorded = schedule.times().try_for_each(|time| {
@@ -239,10 +240,10 @@ impl Set<'_> {
             Err(Trouble::Output(error)) => return Err(order.refuse(&error)),
             Err(Trouble::Spool(error)) => return Err(order.refuse_spool(&error)),
             Err(Trouble::Told) => return Err(Exit::Usage),
-            Err(Trouble::Run(failure)) => Some(failure),
+            Err(Trouble::Run(failure)) => interrupt::unless_asked(failure),
             Err(Trouble::Interrupted) => None,
             // The rest of the run behind the last frame still counts for the card.
-            Ok(()) if order.shot.is_film() => simulation.run_to_end().err(),
+            Ok(()) if order.shot.is_film() => simulation.run_to_end().err().and_then(interrupt::unless_asked),
             Ok(()) => None,
         };
         let finished = match (film, spool) {

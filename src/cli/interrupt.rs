@@ -1,9 +1,11 @@
-//! Ctrl-C: the first one ends a run between two ticks, and the program keeps all that was reached. The second ends the program at once.
+//! Ctrl-C: the first one ends a run between two ticks or steps, and the program keeps all that was reached. The second ends the program at once.
 
 use std::sync::atomic::{AtomicBool, Ordering};
 
 use super::Exit;
 use super::say::say;
+use crate::simulation::Simulation;
+use crate::tick::{Failure, FailureKind};
 
 static ASKED: AtomicBool = AtomicBool::new(false);
 
@@ -28,9 +30,19 @@ pub(super) fn watch() {
     let _ = ctrlc::set_handler(end);
 }
 
-/// From here on a Ctrl-C waits for the end of the tick.
+/// From here on a Ctrl-C waits for the end of the tick or step.
 pub(super) fn arm() {
     KEEPS.store(true, Ordering::Relaxed);
+}
+
+/// From here on a Ctrl-C also ends this run inside a tick that takes long.
+pub(super) fn reach_into(simulation: &mut Simulation) {
+    simulation.ask_inside_ticks(|_| !asked());
+}
+
+/// A failure, unless it is the end that the user asked for.
+pub(super) fn unless_asked(failure: Failure) -> Option<Failure> {
+    (failure.wrong != FailureKind::Stopped).then_some(failure)
 }
 
 /// Whether the user asked for the end.

@@ -43,7 +43,8 @@ impl Runner {
             }
             let start = Instant::now();
             let next = simulation.clock().ticks.saturating_add(batch);
-            simulation.run_to_tick(next.min(tick)).map_err(Ended::Wrong)?;
+            let ran = simulation.run_to_tick(next.min(tick));
+            ran.map_err(|failure| interrupt::unless_asked(failure).map_or(Ended::Interrupted, Ended::Wrong))?;
             self.progress.at(simulation.clock().ticks);
             if self.wall_clock.is_some() {
                 continue;

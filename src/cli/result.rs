@@ -62,7 +62,8 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let mut exit = Exit::Good;
     let cut = cut || interrupt::asked();
     if interrupt::asked() {
-        let (time, end) = (simulation.clock().time(), simulation.ticks() as f64 * simulation.clock().dt);
+        let time = simulation.state().stopped_at().unwrap_or(simulation.clock().time());
+        let (time, end) = (time, simulation.ticks() as f64 * simulation.clock().dt);
         let (time, end) = (number(time), number(end));
         say(&format!(
             "note: {}: Ctrl-C ended the run at t = {time} s of {end} s. All results are those until then",
@@ -171,7 +172,7 @@ fn print_result(
     };
     let result = RunResult {
         scene,
-        time: clock.time(),
+        time: simulation.state().stopped_at().unwrap_or(clock.time()),
         ticks: clock.ticks,
         seconds_spent: simulation.seconds_spent(),
         bodies: (0..bodies.len()).map(state).collect(),

@@ -123,6 +123,7 @@ impl RunArguments {
             say("note: the scene has no sensors, so the rows hold only times: add `sensors: [Energy()]` or others");
         }
         interrupt::arm();
+        interrupt::reach_into(&mut simulation);
         let mut runner = Runner { progress, wall_clock: self.pace.then(WallClock::default) };
         let ran = match &self.output {
             Some(path) => {

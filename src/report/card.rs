@@ -192,7 +192,7 @@ impl Card {
             located: ChosenMethod::locates(world),
             steps: state.steps(),
             ticks: clock.ticks,
-            time: clock.time(),
+            time: state.stopped_at().unwrap_or(clock.time()),
             seconds_spent,
             energy_scale,
             given_back,

@@ -15,4 +15,5 @@ mod replaced_system;
 mod rows;
 mod snapshot;
 mod snapshot_mutants;
+mod stop;
 mod whole_contact_law;

@@ -66,6 +66,7 @@ fn note(setting: &Setting) -> String {
                 FailureKind::Joint { meters, .. } => format!("a joint of `{}` is open by {meters:.1e} m", failure.body),
                 FailureKind::Energy(_) => "energy comes out of nowhere".to_owned(),
                 FailureKind::Pairs(most) => format!("more than {most} pairs of atoms lie near each other"),
+                FailureKind::Stopped => "it was ended".to_owned(),
                 FailureKind::Torn(list) => format!("the packed list `{list}` of bodies does not fit the others"),
                 FailureKind::Lost(component) => format!("`{}` has lost its component `{component}`", failure.body),
                 FailureKind::Gone(name) => format!("{name} is gone"),

@@ -111,7 +111,7 @@ impl EventOverload {
         let parts = if length > 0.0 { (length * fastest / FINE).ceil().max(1.0) } else { 0.0 };
         let mut begin = from;
         let mut part = 0.0;
-        while part < parts {
+        while part < parts && !tick.is_stopped(begin) {
             part += 1.0;
             let end = if part == parts { until } else { from + length * (part / parts) };
             tick.part(begin, end, |tick| {

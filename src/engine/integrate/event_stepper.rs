@@ -561,6 +561,9 @@ impl Integrator for EventStepper {
                 tick.give_up(step);
                 break;
             }
+            if tick.is_stopped(now) {
+                break;
+            }
             if made.until > end {
                 self.show(tick, made);
             } else if !self.finish(tick, made) {

@@ -27,8 +27,8 @@ use crate::scene::{self, SceneError, SceneErrors, SceneHeader, Source};
 use crate::sensors::{self, Channel};
 use crate::threads::Threads;
 use crate::tick::{
-    AfterLoad, Clock, Failure, LoadErrors, Notes, State, TickAppExt, advance, foresee_components, look_inside, open,
-    rebuild,
+    AfterLoad, Clock, Failure, FailureKind, LoadErrors, Notes, State, TickAppExt, advance, foresee_components,
+    look_inside, open, rebuild,
 };
 use crate::world::hull::MendedShapes;
 use crate::world::{Name, atom};
@@ -292,6 +292,12 @@ impl Simulation {
         self.unpublished_world().get_resource::<choice::Duration>().map_or(0.0, |duration| duration.0)
     }
 
+    /// From now on `goes_on` is asked at each step inside a tick, with the time in s of that step. Once it answers `false`, the
+    /// run ends there with [`FailureKind::Stopped`], and its state is that of the step. It cannot be continued.
+    pub fn ask_inside_ticks(&mut self, goes_on: fn(f64) -> bool) {
+        self.world.resource_mut::<State>().bypass_change_detection().ask_inside_ticks(goes_on);
+    }
+
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors
@@ -309,7 +315,7 @@ impl Simulation {
         if self.get_resource::<State>().is_some_and(|state| state.clock.ticks == self.ticks) {
             observe_all(&mut self.world);
         }
-        self.failure = result.as_ref().err().cloned();
+        self.failure = result.as_ref().err().filter(|failure| failure.wrong != FailureKind::Stopped).cloned();
         result
     }
 

@@ -170,6 +170,9 @@ impl Simulation {
         if self.failure.is_some() {
             return Err(Unsaved { name: "a run that went wrong".to_owned() });
         }
+        if self.get_resource::<State>().is_some_and(|state| state.stopped_at().is_some()) {
+            return Err(Unsaved { name: "a run that was ended inside a tick".to_owned() });
+        }
         if !self.contains_resource::<State>() {
             return Err(Unsaved { name: "a world without its resource `State`".to_owned() });
         }

@@ -72,6 +72,8 @@ pub enum FailureKind {
     Contradiction,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
     Pairs(usize),
+    /// Its user has ended it inside a tick. See [`State::ask_inside_ticks`](super::State::ask_inside_ticks).
+    Stopped,
     /// A system has changed the length of this packed list, or put another value into it that does not fit. Bodies were read from
     /// their components again.
     Torn(&'static str),
@@ -108,6 +110,10 @@ impl std::fmt::Display for Failure {
             FailureKind::Pairs(most) => {
                 write!(f, "more than {most} pairs of atoms lie near each other, most of them of `{body}`,")?;
                 ": so many contacts do not fit into memory".to_owned()
+            }
+            FailureKind::Stopped => {
+                f.write_str("the run was ended on request")?;
+                String::new()
             }
             FailureKind::Torn(list) => {
                 write!(

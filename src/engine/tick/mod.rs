@@ -63,6 +63,7 @@ pub mod stages;
 mod state;
 pub mod steady;
 mod step;
+mod stop;
 pub mod stopwatch;
 pub mod touch;
 mod travel;

@@ -63,6 +63,9 @@ pub(super) struct Progress {
     pub energy: EnergyGuard,
     #[serde(skip)]
     pub trouble: Option<Trouble>,
+    /// Asked at each step inside a tick, with its time in s, whether the run goes on.
+    #[serde(skip)]
+    pub goes_on: Option<fn(f64) -> bool>,
     /// The number of indicators of each model with events at the last call, in order.
     pub told: Vec<usize>,
 }

@@ -33,7 +33,7 @@ const MINIMISING: Duration = Duration::from_secs(120);
 const STORED: u64 = 3;
 
 /// Mutates scenes, reads them, runs and draws the good ones for a few ticks, and stores every scene that breaks a
-/// promise: a panic, more than 60 s of processor time, more than 1 GiB of memory, an undocumented exit code, a mistake
+/// promise: a panic, more than 5 s of processor time, more than 1 GiB of memory, an undocumented exit code, a mistake
 /// without a place, a state that is not finite and nobody says so. Needs Linux.
 ///
 /// Exit codes: 0 nothing found, 1 something found, 2 wrong command line or a file cannot be written.
@@ -49,9 +49,8 @@ struct Flags {
     /// What is mutated. Files other than scenes are read by scenes that stay as they are
     #[arg(long, default_value = "scenes", value_parser = PossibleValuesParser::new(kinds::names()))]
     kind: String,
-    /// Seconds of processor time that one mutant may take. Under a tolerance the engine itself ends a tick after ten
-    /// million steps, which take half a minute
-    #[arg(long, default_value_t = 60.0)]
+    /// Seconds of processor time that one mutant may take. Runs end after a second, also inside ticks
+    #[arg(long, default_value_t = 5.0)]
     patience: f64,
     /// Folder for findings: NAME.ron or of another ending, and NAME.txt that says what it does
     #[arg(long, default_value = "findings")]

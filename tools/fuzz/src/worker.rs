@@ -3,19 +3,22 @@
 
 use std::io::Write;
 use std::path::Path;
+use std::sync::LazyLock;
+use std::sync::atomic::{AtomicU64, Ordering};
 use std::time::{Duration, Instant};
 
 use clap::Parser;
 use jostle::cli::{CommandLine, Exit};
 use jostle::scene::Source;
 use jostle::simulation::{Goal, Overrides};
+use jostle::tick::FailureKind;
 use jostle::{Simulation, SimulationExt};
 
 use crate::kinds::Kind;
 
 /// Ticks of a short run.
 const TICKS: u64 = 12;
-/// No further tick begins after so long.
+/// A run goes on no longer, neither to a further tick nor to a further step.
 const ENOUGH: Duration = Duration::from_secs(1);
 /// Seconds of physics for which the trial runs of a tolerance are made.
 const LONGEST_TRIED: f64 = 0.1;
@@ -25,6 +28,15 @@ pub const DRAWN: u64 = 4;
 /// Exit code of the child when a promise is broken that does not end a program by itself. No panic, and none of the
 /// codes that `jostle` documents.
 pub const BROKEN: i32 = 70;
+
+/// When the run began, in milliseconds of this program.
+static BEGIN: AtomicU64 = AtomicU64::new(0);
+
+/// Milliseconds since this was asked first.
+fn since_start() -> u64 {
+    static START: LazyLock<Instant> = LazyLock::new(Instant::now);
+    START.elapsed().as_millis() as u64
+}
 
 /// Tells the parent where the child is: scene, and what happens to it.
 pub fn mark(number: u64, word: &str) {
@@ -90,14 +102,16 @@ pub fn read_and_run(source: &Source, number: u64) -> Option<Ran> {
 /// Runs on for some ticks.
 pub fn run_on(simulation: &mut Simulation, number: u64) -> Ran {
     mark(number, "running");
-    // Where ticks are long one of them takes many steps: a hang is a tick that does not end.
+    // Where ticks are long one of them takes many steps. A hang is a step that does not end.
     let begin = Instant::now();
+    BEGIN.store(since_start(), Ordering::Relaxed);
+    simulation.ask_inside_ticks(|_| since_start() - BEGIN.load(Ordering::Relaxed) < ENOUGH.as_millis() as u64);
     let first = simulation.clock().ticks;
     let last = simulation.ticks().max(first).min(first.saturating_add(TICKS));
     let (mut done, mut failed) = (first, false);
     while done < last && !failed && begin.elapsed() < ENOUGH {
         done += 1;
-        failed = simulation.run_to_tick(done).is_err();
+        failed = simulation.run_to_tick(done).is_err_and(|failure| failure.wrong != FailureKind::Stopped);
     }
     let end = (done - first) as f64 * simulation.clock().dt;
     let bodies = simulation.bodies();

@@ -1,0 +1,33 @@
+//! The end of a run inside a tick, on request. A tick may take many steps, and a user does not wait for its end.
+
+use super::failure::{FailureKind, Trouble};
+use super::{State, Tick};
+
+impl State {
+    /// From now on `goes_on` is asked at each step inside a tick, with the time in s of that step. Once it answers `false`, the
+    /// run ends there with [`FailureKind::Stopped`], and cannot be continued. Without it, and from tick to tick, nothing is asked.
+    pub fn ask_inside_ticks(&mut self, goes_on: fn(f64) -> bool) {
+        self.progress.goes_on = Some(goes_on);
+    }
+
+    /// The time in s at which the run was ended inside a tick, if it was.
+    pub fn stopped_at(&self) -> Option<f64> {
+        let trouble = self.progress.trouble.filter(|trouble| matches!(trouble.wrong, FailureKind::Stopped))?;
+        Some(trouble.time)
+    }
+}
+
+impl Tick<'_> {
+    /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended.
+    pub fn is_stopped(&mut self, time: f64) -> bool {
+        let progress = &mut self.state.progress;
+        let Some(goes_on) = progress.goes_on else { return false };
+        let stopped = !goes_on(time);
+        if stopped {
+            let tick = self.state.clock.ticks + 1;
+            let trouble = Trouble { body: None, entity: None, wrong: FailureKind::Stopped, tick, time };
+            progress.trouble.get_or_insert(trouble);
+        }
+        stopped
+    }
+}

@@ -1,0 +1,40 @@
+//! Promise: a user can end a run inside a tick that takes long. The run says where it ended. It is not continued or saved as if it had
+//! reached the end of the tick.
+
+use std::sync::atomic::{AtomicU64, Ordering};
+
+use jostle::scene::Source;
+use jostle::tick::FailureKind;
+use jostle::{Simulation, SimulationExt};
+
+/// A planet on an ellipse. Its tick lasts the whole run, with some hundred steps.
+const ORBIT: &str = "Scene(format: 1, clock: (duration: 20, tick: 20, method: Reference),
+    bodies: [(name: \"sun\", at: (0, 0), mass: 1e6, atoms: Disc(radius: 0.1)),
+             (name: \"planet\", at: (1, 0), velocity: (0, 1), mass: 1, atoms: Disc(radius: 0.01))],
+    forces: [Spring(a: \"sun\", b: \"planet\", stiffness: 3)])";
+
+/// Steps after which the run is ended.
+const STEPS: u64 = 10;
+
+static ASKED: AtomicU64 = AtomicU64::new(0);
+
+#[test]
+fn a_run_ends_inside_a_tick_on_request_and_says_when() {
+    let mut simulation = Simulation::load(&Source::new("orbit.ron", ORBIT)).unwrap();
+    simulation.ask_inside_ticks(|_| ASKED.fetch_add(1, Ordering::Relaxed) < STEPS);
+    let failure = simulation.run_to_end().unwrap_err();
+    assert_eq!((failure.wrong, ASKED.load(Ordering::Relaxed)), (FailureKind::Stopped, STEPS + 1));
+    let reached = simulation.state().stopped_at().unwrap();
+    assert!(reached > 0.0 && reached < 20.0, "{reached}");
+    assert!(simulation.snapshot().is_err(), "a snapshot would hold a part of a tick");
+}
+
+#[test]
+fn a_run_that_goes_on_ends_in_the_same_bits() {
+    let load = || Simulation::load(&Source::new("orbit.ron", ORBIT)).unwrap();
+    let (mut plain, mut asked) = (load(), load());
+    asked.ask_inside_ticks(|_| true);
+    plain.run_to_end().unwrap();
+    asked.run_to_end().unwrap();
+    assert_eq!(plain.card().hash, asked.card().hash);
+}
