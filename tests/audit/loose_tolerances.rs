@@ -62,3 +62,34 @@ fn a_disc_that_a_force_lifts_and_drops_lands_where_loose_tolerances_say() {
         demand_agreement(&format!("disc {number}"), &CLOCKS, 5, scene);
     }
 }
+
+/// A pad comes down on a flywheel. A force in time presses it.
+const BRAKE: &str = "Scene(format: 1, clock: (duration: 0.6CLOCK), gravity: (0, -9.81),
+    materials: { \"m\": (stiffness: 105700.0, restitution: 0.46, friction: 0.49) },
+    bodies: [(name: \"wheel\", at: (0, 0), spin: -74.45, shape: Disc(radius: 0.01911), mass: 0.1278, material: \"m\"),
+             (name: \"pad\", at: (0, 0.021021), shape: Rectangle(width: 0.009555, height: 0.003822), mass: 0.03834, material: \"m\")],
+    forces: [Drive(of: \"wheel\", torque: 0.0037743, course: Piecewise([(0, 0), (0.075, 0.983), (0.15, 0.05), (0.225, -0.761),
+             (0.3, 0.137), (0.375, 0.168), (0.45, 0.786), (0.525, 0.491), (0.6, -0.938)]))],
+    joints: [Revolute(a: World, b: \"wheel\"), Prismatic(name: \"guide\", a: World, b: \"pad\", axis: (0, -1))],
+    controllers: [Actuator(of: \"guide\", force: Course([(0, 0), (0.0995, 0), (0.1019, 3.00854), (0.14, 3.00854), (0.1424, 0),
+             (0.2264, 0), (0.2288, -3.00854), (0.2887, -3.00854), (0.2911, 0), (0.4136, 0), (0.416, -3.00854), (0.484, -3.00854),
+             (0.4864, 0)]))])";
+
+/// A box stands on a plank between two limits. A force in time lifts one end.
+const SEESAW: &str = "Scene(format: 1, clock: (duration: 1.55CLOCK), gravity: (0, -9.81),
+    materials: { \"m\": (stiffness: 11740.0, restitution: 0.65, friction: 0.66) },
+    bodies: [(name: \"plank\", at: (0, 0), shape: Rectangle(width: 0.3204, height: 0.020025), mass: 0.07129, material: \"m\"),
+             (name: \"load\", at: (0.1102, 0.0260325), shape: Rectangle(width: 0.03204, height: 0.03204), mass: 0.06256, material: \"m\")],
+    forces: [Drive(of: \"plank\", force: (0, 0.41337314762480004), at: (-0.14418, 0), course: Piecewise([(0, 0), (0.3273, 0),
+             (0.3335, 1), (0.4142, 1), (0.4204, 0), (0.6668, 0), (0.673, 1), (0.8254, 1), (0.8316, 0), (1.0691, 0), (1.0753, -1),
+             (1.143, -1), (1.1492, 0), (1.5065, 0), (1.5127, 1), (1.5805, 1), (1.5867, 0)]))],
+    joints: [Revolute(name: \"pivot\", a: World, b: \"plank\", limits: (-0.08204, 0.08204))])";
+
+#[test]
+fn pads_and_loads_that_bounce_come_to_where_neighbouring_tolerances_say() {
+    let clocks =
+        [", tolerance: 0.01", ", tolerance: 1e-3", ", tolerance: 1e-4", ", tolerance: 1e-6", ", tolerance: 1e-7"];
+    for (name, scene) in [("brake", BRAKE), ("seesaw", SEESAW)] {
+        demand_agreement(name, &clocks, 4, |clock| scene.replace("CLOCK", clock));
+    }
+}

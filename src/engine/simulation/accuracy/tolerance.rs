@@ -28,14 +28,10 @@ const OF_A_TENTH: f64 = 0.9;
 /// The ratio of the fineness of a trial with other steps to that of the finer one. Its steps are not parts of those of
 /// the others.
 const OTHER_STEPS: f64 = 1.0 / 1.37;
-/// Two runs with events took nearly the same steps if they differ by at most this share of the tolerance. Springs and
-/// events ask for those steps. A step may decide between sticking and slipping, and both runs may decide alike.
-const ALIKE: f64 = 0.01;
-/// Then a run with this share of the fineness is the finer one. Its steps of order eight are less than half as long.
+/// Two runs with events may agree by chance, because events give errors either sign. They may also take the steps that springs and
+/// loads ask for, and so decide alike between sticking and slipping. A run with this share of the fineness has to agree too. Its
+/// steps of order eight are less than half as long.
 const OWN_STEPS: f64 = 1e-3;
-/// Steps of so large an error are too long for it to fall by their order. Events give it either sign, so two runs may agree by
-/// chance. A much finer one confirms that they do.
-const LOOSE: f64 = 1e-5;
 /// A predicted error aims at this share of the tolerance.
 const FORETOLD: f64 = 0.3;
 /// A prediction is confirmed if the result exceeds it by at most this factor, because errors of located events scatter.
@@ -172,7 +168,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     // Fineness and difference of the last pair of trials, and the predicted error.
     let mut before: Option<(f64, f64, f64)> = None;
     loop {
-        let mut fine = trials.run(next, "a finer run", |_| {})?;
+        let fine = trials.run(next, "a finer run", |_| {})?;
         let mut apart = coarse.apart(&fine);
         if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
             // The steps of one run are halves of those of the other. Events at the same phase of both have equal
@@ -180,16 +176,12 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
             let other = trials.run(next * OTHER_STEPS, "a run with other steps", |_| {})?;
             apart = apart.max(coarse.apart(&other));
         }
-        if trials.ladder == Ladder::Allowed && fine.jumped && apart.share <= ALIKE * tolerance && next > climb.finest {
-            next = climb.down_to(next * OWN_STEPS);
-            fine = trials.run(next, "a run with steps of its own", |_| {})?;
-            apart = apart.max(coarse.apart(&fine));
-        } else if trials.ladder == Ladder::Allowed
+        if trials.ladder == Ladder::Allowed
             && fine.jumped
-            && next >= LOOSE
             && apart.share <= climb.measured * tolerance
+            && next > climb.finest
         {
-            let other = trials.run(next * OWN_STEPS, "a run with much finer steps", |_| {})?;
+            let other = trials.run(climb.down_to(next * OWN_STEPS), "a run with steps of its own", |_| {})?;
             apart = apart.max(coarse.apart(&other));
         }
         let difference = apart.share;
