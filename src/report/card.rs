@@ -166,7 +166,8 @@ impl Card {
         let smallest = bodies.smallest_radius;
         let share = |length: f64| if smallest.is_finite() { length / smallest } else { 0.0 };
         let estimated = world.get_resource::<EstimatedError>().cloned().unwrap_or_default();
-        let known = world.get_resource::<KnownError>();
+        let known = KnownError::of(world);
+        let known = known.as_ref();
         let mut card = Self {
             method: method.to_owned(),
             tick: clock.dt,

@@ -24,9 +24,10 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let time_scales = state.time_scales();
     let advice = remedy.map_or_else(String::new, |remedy| format!(". Use {remedy}"));
     let mut warnings = Vec::new();
-    warnings.extend(world.get_resource::<KnownError>().and_then(|known| known.warning.clone()));
+    let known = KnownError::of(world);
+    warnings.extend(known.as_ref().and_then(|known| known.warning.clone()));
     // If steps follow their error, ticks are only moments at which the run is read.
-    let by_ticks = world.get_resource::<KnownError>().is_none_or(|known| known.estimate.is_none());
+    let by_ticks = known.is_none_or(|known| known.estimate.is_none());
     let by_ticks = by_ticks && world.get_resource::<Plan>().and_then(Plan::allowed).is_none();
     let by_ticks = by_ticks && !EstimatedError::is_small(world);
     let time_scales = if by_ticks { time_scales } else { TimeScales::default() };

@@ -5,6 +5,7 @@ use std::fmt;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
 
+use crate::tick::State;
 use jostle_language::numbers::{LEAST, number, rough};
 
 /// An error and its sources; `null` until it is estimated.
@@ -64,4 +65,26 @@ pub struct KnownError {
     pub warning: Option<String>,
     /// The requested tolerance; `None` if the smallest possible error was requested.
     pub tolerance: Option<f64>,
+}
+
+impl KnownError {
+    /// That of a run as far as it went. The trials that gave the error located all events. So they tell nothing of a run that gave
+    /// up some.
+    pub fn of(world: &World) -> Option<Self> {
+        let mut known = world.get_resource::<Self>()?.clone();
+        if world.resource::<State>().located().given_up > 0
+            && known.warning.is_none()
+            && let Some(estimate) = &mut known.estimate
+        {
+            (estimate.position.discretisation, estimate.velocity.discretisation) = (None, None);
+            let missed = known.tolerance.map_or_else(String::new, |tolerance| {
+                format!("the tolerance of {} is not reached: ", number(tolerance))
+            });
+            known.warning = Some(format!(
+                "{missed}some ticks had too many events to locate them all. The compared runs located theirs, so the error of this one \
+                 is not known"
+            ));
+        }
+        Some(known)
+    }
 }

@@ -206,7 +206,7 @@ pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Re
         return Ok(());
     }
     let run = Trajectory::watched(simulation, None);
-    let known = simulation.get_resource::<KnownError>().and_then(|known| known.estimate);
+    let known = KnownError::of(simulation.unpublished_world()).and_then(|known| known.estimate);
     let mut found = EstimatedError { estimate: known, ..EstimatedError::default() };
     if known.is_none() && wanted.effort != Effort::None && simulation.clock().ticks > 0 {
         discretisation(simulation, &run, wanted.effort, scene, &mut found)?;

@@ -170,6 +170,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
     loop {
         let fine = trials.run(next, "a finer run", |_| {})?;
         let mut apart = coarse.apart(&fine);
+        let mut confirming = None;
         if trials.ladder == Ladder::Steps && fine.jumped && apart.share <= BETWEEN * tolerance {
             // The steps of one run are halves of those of the other. Events at the same phase of both have equal
             // errors.
@@ -183,6 +184,7 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         {
             let other = trials.run(climb.down_to(next * OWN_STEPS), "a run with steps of its own", |_| {})?;
             apart = apart.max(coarse.apart(&other));
+            confirming = Some(other);
         }
         let difference = apart.share;
         let confirmed = before.is_some_and(|(.., error)| error.is_finite() && difference <= SCATTER * error);
@@ -229,7 +231,8 @@ fn climb(tolerance: f64, trials: &mut Trials) -> Result<Plan, SceneErrors> {
         let ended = alike || next <= climb.finest || trials.count >= MOST_TRIALS;
         let Some(then) = then.filter(|_| !ended) else {
             let ends = Ends { fineness: next, finest: next <= climb.finest, dear: then.is_none() };
-            let runs = Runs { coarse: &coarse, fine: &fine, by_events: by_events.as_ref() };
+            let (confirming, by_events) = (confirming.as_ref(), by_events.as_ref());
+            let runs = Runs { coarse: &coarse, fine: &fine, confirming, by_events };
             return Ok(missed(trials, ends, tolerance, runs, apart.times(share_at(next))));
         };
         before = Some((fineness, difference, difference * share_at(next)));
@@ -305,6 +308,8 @@ struct Runs<'a> {
     /// The two finest.
     coarse: &'a Trajectory,
     fine: &'a Trajectory,
+    /// A much finer one that did not agree, though these two did.
+    confirming: Option<&'a Trajectory>,
     /// The last one with located events, if these two go by whole ticks.
     by_events: Option<&'a Trajectory>,
 }
@@ -314,11 +319,12 @@ fn missed(
     trials: &Trials,
     ends: Ends,
     tolerance: f64,
-    Runs { coarse, fine, by_events }: Runs,
+    Runs { coarse, fine, confirming, by_events }: Runs,
     mut error: TrajectoryDistance,
 ) -> Plan {
     let mut plan = trials.planned(ends.fineness);
-    let lost = coarse.parts(fine, tolerance * trials.sizes().0);
+    let finer = || std::iter::once(fine).chain(confirming);
+    let lost = finer().filter_map(|finer| coarse.parts(finer, tolerance * trials.sizes().0)).reduce(f64::min);
     let magnified = trials.ladder == Ladder::Allowed && error.share > MAGNIFIED * ends.fineness;
     let why = match lost {
         _ if coarse.bounded && fine.bounded => bounded(fine.farthest(), trials.sizes().0),
@@ -335,17 +341,19 @@ fn missed(
                 true => ": the engine takes no finer steps",
                 false => ", by rounding or chaos",
             };
-            format!("the two finest runs part at t = {} s{why}", number(time))
+            format!("the finest runs part at t = {} s{why}", number(time))
         }
-        None => "the two finest runs differ in their velocities by more".to_owned(),
+        None => "the finest runs differ in their velocities by more".to_owned(),
     };
     plan.warning = Some(format!("the tolerance of {} is not reached: {why}", number(tolerance)));
     plan.notes.push(format!("{}; {}", trials.words(&plan), trials.cost()));
     // Errors that the motion magnifies do not fall in proportion to the error of a step.
     let useless = TELLS_NOTHING * trials.sizes().0;
-    let (apart, mut horizon) = coarse.apart_until(fine, useless);
+    let mut horizon = finer().filter_map(|finer| coarse.apart_until(finer, useless).1).reduce(f64::min);
     if magnified || horizon.is_some() {
-        error = apart;
+        let until = horizon.unwrap_or(f64::INFINITY);
+        let apart = finer().map(|finer| coarse.part(until, 1).apart(&finer.part(until, 1)));
+        error = apart.reduce(TrajectoryDistance::max).unwrap_or(error);
     }
     let elsewhere = by_events.map(|by_events| at_moments_of(fine, by_events).apart_until(fine, useless));
     if let Some((other, parted)) = elsewhere.filter(|(other, _)| other.distance.is_finite()) {
