@@ -34,21 +34,45 @@ pub(super) struct EventOverload {
     next: u32,
     /// Ticks since the last.
     calm: u32,
-    /// Events that may still be located.
+    /// Events that may still be located, in parts of one.
     credit: u32,
-    /// The factor on the number of events that a tick may have.
+    /// The factor on the number of events that a frame may have.
     patience: u32,
+    /// The ticks of a frame, and the parts of an event that are counted. So all divisions of a frame admit the same.
+    ticks: u32,
 }
 
 impl EventOverload {
     /// Whether another one, from a file, admits as many events.
     pub fn is_as_patient_as(&self, saved: &Self) -> bool {
-        self.patience == saved.patience && saved.left <= LONGEST && saved.next <= LONGEST && saved.next > 0
+        (self.patience, self.ticks) == (saved.patience, saved.ticks)
+            && saved.left <= LONGEST
+            && saved.next <= LONGEST
+            && saved.next > 0
     }
 
-    /// An overload control that admits `times` as many events in a tick.
-    pub fn patient(times: u32) -> Self {
-        Self { following: false, left: 0, next: SHORTEST, calm: 0, credit: times * MOST_EVENTS, patience: times }
+    /// An overload control that admits `times` as many events in a frame of so many ticks as in other ticks.
+    pub fn shared(times: u32, ticks: u32) -> Self {
+        let fresh = Self {
+            following: false,
+            left: 0,
+            next: SHORTEST,
+            calm: 0,
+            credit: 0,
+            patience: times,
+            ticks: ticks.max(1),
+        };
+        Self { credit: fresh.most(), ..fresh }
+    }
+
+    /// The parts of so many events.
+    fn parts(&self, events: u32) -> u32 {
+        events.saturating_mul(self.ticks)
+    }
+
+    /// The parts of the events that may be located after quiet ticks.
+    fn most(&self) -> u32 {
+        self.patience.saturating_mul(MOST_EVENTS).saturating_mul(self.ticks)
     }
 
     /// Whether the tick to come is one of a stretch.
@@ -63,7 +87,7 @@ impl EventOverload {
 
     /// Whether a model reports too many held contacts, or this number of events in the tick is too large.
     pub fn comes(&self, tick: &mut Tick, events: u32) -> bool {
-        events >= self.credit || tick.is_overloaded()
+        self.parts(events) >= self.credit || tick.is_overloaded()
     }
 
     /// Whether so many indicators may vanish in a step.
@@ -73,8 +97,8 @@ impl EventOverload {
 
     /// A tick ended without an overload.
     pub fn stays_away(&mut self, events: u32) {
-        self.credit =
-            (self.credit.saturating_sub(events) + self.patience * LASTING_EVENTS).min(self.patience * MOST_EVENTS);
+        let left = self.credit.saturating_sub(self.parts(events));
+        self.credit = left.saturating_add(self.patience * LASTING_EVENTS).min(self.most());
         self.calm = self.calm.saturating_add(1);
         if self.calm >= self.next {
             self.next = SHORTEST;
@@ -99,7 +123,7 @@ impl EventOverload {
     /// Events are located again.
     pub fn end(&mut self) {
         self.following = false;
-        self.credit = self.patience * MOST_EVENTS / 4;
+        self.credit = self.most() / 4;
     }
 
     /// Advances from `from` to the end of the tick.
@@ -123,5 +147,28 @@ impl EventOverload {
             }
             begin = end;
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// Events that are located in so many frames of so many ticks. Each tick has as many as it may.
+    fn located(frames: u32, ticks: u32) -> u32 {
+        let mut overload = EventOverload::shared(16, ticks);
+        let mut sum = 0;
+        for _ in 0..frames * ticks {
+            let events = overload.credit / ticks;
+            overload.stays_away(events);
+            sum += events;
+        }
+        sum
+    }
+
+    #[test]
+    fn frames_locate_as_many_events_however_their_ticks_divide_them() {
+        let whole = located(10, 1);
+        assert!([2, 7, 16, 40].into_iter().all(|ticks| located(10, ticks).abs_diff(whole) <= 64), "{whole}");
     }
 }

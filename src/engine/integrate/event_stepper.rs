@@ -144,8 +144,10 @@ impl EventStepper {
             StepPace::Allowed(allowance) => (1, estimates.then(|| Control::new(allowance))),
         };
         let (state, rest, work) = (Vec::new(), Vec::new(), Work::default());
-        let patience = if control.is_some() { EVENTS_PER_FRAME / detail.looks } else { 1 };
-        let overload = EventOverload::patient(patience.max(1));
+        let overload = match control {
+            Some(_) => EventOverload::shared(EVENTS_PER_FRAME, detail.looks),
+            None => EventOverload::shared(1, 1),
+        };
         Self {
             method,
             located,
