@@ -12,6 +12,7 @@ mod draw;
 mod fast_sensors;
 mod few_contacts;
 mod first_steps;
+mod frames;
 mod friction_cones;
 mod gaps_at_zero;
 mod hidden_characters;

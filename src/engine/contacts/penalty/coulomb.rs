@@ -9,6 +9,7 @@
 //! At rest the law is set-valued: every force up to `mu N` keeps the contact at rest. The balance of forces determines
 //! it ([`crate::constraints::rest_solver`]).
 
+use super::indicators::SliderMotion;
 use super::switching::Base;
 use crate::constraints::rest_solver::{CoulombSpring, FrictionOutcome, SpringPhase};
 use serde::{Deserialize, Serialize};
@@ -171,13 +172,29 @@ impl Slider {
         }
     }
 
-    /// Lets a sticking spring hold whose swing is rounding, below a normal force that comes to be held. `speed`: the velocity in m/s at
-    /// the middle of the swing. A long step would make that swing grow.
-    pub(super) fn stop_still_swing(&mut self, law: &SliderLaw, (normal_force, speed): (f64, f64), mobility: f64) {
+    /// Lets a sticking spring hold whose swing is rounding, below a normal force that comes to be held. A long step would make that
+    /// swing grow. A spring whose ends stand is tried as held, too. Rounding decides whether its ends stopped before the normal did.
+    pub(super) fn stop_still_swing(&mut self, law: &SliderLaw, normal_force: f64, motion: &SliderMotion) {
         let limit = law.friction_static * normal_force / law.stiffness;
-        let swing = self.elongation.hypot(speed / (law.stiffness * mobility).sqrt());
+        let swing = self.elongation.hypot(motion.velocity / (law.stiffness * motion.mobility).sqrt());
         if self.grip == Grip::Stick && law.acts() && swing <= STILL * limit {
             (self.grip, self.held) = (Grip::Hold, self.force(law));
+        }
+        self.hold_still(law, motion);
+    }
+
+    /// Tries a sticking spring as held whose ends stand.
+    pub(super) fn hold_still(&mut self, law: &SliderLaw, motion: &SliderMotion) {
+        if self.grip == Grip::Stick && law.acts() && motion.is_still() {
+            (self.grip, self.held) = (Grip::Hold, self.force(law));
+        }
+    }
+
+    /// A spring that sticks and stands begins its swing in the direction of the forces. The sign of a velocity of rounding would end
+    /// it at once, and at each new beginning.
+    pub(super) fn direct(&mut self, motion: &SliderMotion) {
+        if self.grip == Grip::Stick && motion.is_still() {
+            self.held = 0.0_f64.copysign(motion.rate);
         }
     }
 
@@ -213,6 +230,11 @@ impl Slider {
         let follows = law.friction_dynamic.copysign(self.held) * base.rate / law.stiffness;
         let rounding = ROUNDING * (speed + follows.abs());
         match self.grip {
+            // Friction of a slack contact has no force in either grip. The sign of a velocity of rounding would change it without end.
+            Grip::Slide if base.is_slack => return false,
+            Grip::Stick if base.is_slack && self.force(law) == 0.0 => {
+                (self.grip, self.held) = (Grip::Slide, 0.0_f64.copysign(velocity));
+            }
             Grip::Slide if speed > 0.0 && (velocity - follows) * self.held.signum() < -rounding => {
                 // A holding spring remembers its direction.
                 (self.grip, self.held) = (Grip::Stick, 0.0_f64.copysign(velocity));

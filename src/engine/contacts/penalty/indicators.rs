@@ -2,12 +2,12 @@
 //! evaluations.
 
 use super::contact::Contact;
-use super::coulomb::{Grip, Slider, SliderLaw};
+use super::coulomb::{self, Grip, Slider, SliderLaw};
 use super::normal::{Change, Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{View, What};
-use crate::contacts::geometry::PairGeometry;
+use crate::contacts::geometry::{PairGeometry, Shares};
 use crate::tick::{Bend, Indicator};
 use crate::world::Bodies;
 
@@ -152,12 +152,7 @@ fn tell_friction(
     say: &mut impl FnMut(What, Indicator),
 ) {
     let slider = &contact.tangential;
-    let motion = SliderMotion {
-        velocity: geometry.sliding(law.shares()),
-        rate: geometry.sliding_rate(law.shares(), bodies),
-        speed: geometry.speed(law.shares()),
-        mobility: geometry.mobility_along(law.shares(), bodies),
-    };
+    let motion = SliderMotion::along(geometry, law.shares(), bodies);
     // If the normal force is held, or friction has no spring, a slipping spring does not follow the limit.
     let held = law.exact || contact.mode == Mode::Hold;
     tell_slider((slider, &law.tangential()), (contact.mode, held), pressure, motion, |event, indicator| {
@@ -179,6 +174,34 @@ pub(super) struct SliderMotion {
     pub rate: f64,
     pub speed: f64,
     pub mobility: f64,
+}
+
+impl SliderMotion {
+    /// Along the surfaces of two sides.
+    pub fn along(geometry: &PairGeometry, shares: Shares, bodies: &Bodies) -> Self {
+        Self {
+            velocity: geometry.sliding(shares),
+            rate: geometry.sliding_rate(shares, bodies),
+            speed: geometry.speed(shares),
+            mobility: geometry.mobility_along(shares, bodies),
+        }
+    }
+
+    /// The turn of one side on the other.
+    pub fn of_turning(geometry: &PairGeometry, bodies: &Bodies) -> Self {
+        Self {
+            velocity: geometry.turning(),
+            rate: geometry.turning_rate(bodies),
+            speed: geometry.turning_speed(),
+            mobility: geometry.mobility_of_turning(bodies),
+        }
+    }
+
+    /// Whether the velocity is rounding of the speeds whose difference it is. An event is located less exactly than to their last
+    /// digit.
+    pub fn is_still(&self) -> bool {
+        self.velocity.abs() <= coulomb::ROUNDING * self.speed
+    }
 }
 
 /// How a spring with a Coulomb limit ends its phase.
@@ -211,6 +234,10 @@ pub(super) fn tell_slider(
         if bend.is_finite() { Bend::AtMost(bend) } else { Bend::Fitted }
     };
     match slider.grip {
+        // A slack contact has no friction that could begin to hold. The number of indicators of a mode does not change.
+        Grip::Slide if mode != Mode::Hold && pressure.force == 0.0 && pressure.rate == 0.0 => {
+            say(PhaseEnd::Stops, Indicator::new(1.0, 0.0, Bend::AtMost(0.0)));
+        }
         Grip::Slide => {
             let follows = if held { 0.0 } else { law.friction_dynamic.copysign(sign) / law.stiffness };
             let (rate, second) = if held { (0.0, 0.0) } else { (pressure.rate, pressure.second_rate) };

@@ -127,12 +127,7 @@ pub(super) fn tell(
     bodies: &Bodies,
     mut say: impl FnMut(What, Indicator),
 ) {
-    let motion = SliderMotion {
-        velocity: geometry.turning(),
-        rate: geometry.turning_rate(bodies),
-        speed: geometry.turning_speed(),
-        mobility: geometry.mobility_of_turning(bodies),
-    };
+    let motion = SliderMotion::of_turning(geometry, bodies);
     let modes = (contact.mode, contact.mode == Mode::Hold);
     tell_slider((slider, law), modes, pressure, motion, |event, indicator| {
         say(

@@ -2,6 +2,7 @@
 //! not made themselves, and states behind an event, at which forces have jumped.
 
 use super::coulomb::{Grip, Slider, SliderLaw};
+use super::indicators::SliderMotion;
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling_stages;
@@ -41,9 +42,28 @@ impl View<'_> {
             || self.settle_friction::<N>(|grip| grip == Grip::Hold)
             || self.hold_again::<N>();
         if !corrected {
+            self.direct_springs();
             self.contacts.slid = self.sliding_energy();
         }
         corrected
+    }
+
+    /// Springs that stand begin to swing with the forces of the modes that were found. Only beside a normal force that is held does
+    /// the end of a swing count.
+    fn direct_springs(&mut self) {
+        for index in 0..self.len() {
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (mut contact, law, roller) = self.whole(index, &geometry);
+            if contact.mode != Mode::Hold {
+                continue;
+            }
+            if law.tangential().acts() {
+                contact.tangential.direct(&SliderMotion::along(&geometry, law.shares(), bodies));
+            }
+            if let Some((slider, _)) = roller {
+                slider.direct(&SliderMotion::of_turning(&geometry, bodies));
+            }
+        }
     }
 
     /// Lets friction slide that holds beyond its cone, if a normal force leaves its bounds. A friction without a bound makes normal
@@ -58,7 +78,7 @@ impl View<'_> {
             let (mut contact, law) = self.contact(index);
             if contact.mode == Mode::Hold && contact.tangential.grip == Grip::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-                let base = Base { force: contact.normal_force.min(greatest).max(least), rate: 0.0 };
+                let base = Base { force: contact.normal_force.min(greatest).max(least), rate: 0.0, is_slack: false };
                 let before = springs.get(index).copied().unwrap_or_default();
                 corrected |= contact.tangential.settle_force(&law.tangential(), base, before[0]);
             }
@@ -88,7 +108,7 @@ impl View<'_> {
             }
             corrected = true;
             let before = springs.get(index).copied().unwrap_or_default();
-            let base = Base { force: least, rate: 0.0 };
+            let base = Base { force: least, rate: 0.0, is_slack: false };
             // Its motion may come from springs that were held for a first try. It may also come from springs that
             // stick under no force within the bounds.
             let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
@@ -147,10 +167,12 @@ impl View<'_> {
     }
 
     /// Holds the first contact again that was let go and is drawn back by others that were. So the contacts of a body find their
-    /// modes together (principal pivoting by the least index: Murty 1974). Says whether there was any.
+    /// modes together (principal pivoting by the least index: Murty 1974). Says whether there was any. Friction that stands is tried
+    /// as held beside it. It is tried once, because it may make the normal force leave its bounds.
     fn hold_again<N: NormalForce>(&mut self) -> bool {
         let mut released = std::mem::take(&mut self.contacts.released);
         released.sort_unstable();
+        let twice: Vec<u32> = released.windows(2).filter(|pair| pair[0] == pair[1]).map(|pair| pair[0]).collect();
         released.dedup();
         let drawn_back = |index: &&u32| {
             let (geometry, bodies) = (self.look(**index as usize), self.bodies);
@@ -160,7 +182,15 @@ impl View<'_> {
         };
         let first = released.iter().find(drawn_back).copied();
         if let Some(index) = first {
-            self.contact(index as usize).0.mode = Mode::Hold;
+            let (geometry, bodies) = (self.look(index as usize), self.bodies);
+            let (mut contact, law, roller) = self.whole(index as usize, &geometry);
+            contact.mode = Mode::Hold;
+            if !twice.contains(&index) && !law.exact {
+                contact.tangential.hold_still(&law.tangential(), &SliderMotion::along(&geometry, law.shares(), bodies));
+                if let Some((slider, law)) = roller {
+                    slider.hold_still(&law, &SliderMotion::of_turning(&geometry, bodies));
+                }
+            }
         }
         self.contacts.released = released;
         first.is_some()

@@ -18,6 +18,7 @@ use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
 use super::coulomb::{Grip, Slider, SliderLaw};
+use super::indicators::SliderMotion;
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
 use super::rolling::RollingContacts;
@@ -188,15 +189,14 @@ impl View<'_> {
                 turned.push(pair);
             }
             if stands && !law.exact {
-                let (sliding, mobility) =
-                    (geometry.sliding(law.shares()), geometry.mobility_along(law.shares(), bodies));
-                contact.tangential.stop_still_swing(&law.tangential(), (normal_force, sliding), mobility);
+                let motion = SliderMotion::along(&geometry, law.shares(), bodies);
+                contact.tangential.stop_still_swing(&law.tangential(), normal_force, &motion);
             }
             match (roller, what) {
                 (Some((slider, rolling_law)), What::Turn) if stands => {
-                    let (turning, mobility) = (geometry.turning(), geometry.mobility_of_turning(bodies));
+                    let motion = SliderMotion::of_turning(&geometry, bodies);
                     rolling_stages::come_loose((&mut *slider, rolling_law), &contact, &geometry);
-                    slider.stop_still_swing(&rolling_law, (normal_force, turning), mobility);
+                    slider.stop_still_swing(&rolling_law, normal_force, &motion);
                 }
                 (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &geometry, Some(base)),
                 (Some(roller), _) => rolling_stages::switch(roller, &contact, what, &geometry),
@@ -364,6 +364,8 @@ pub(super) fn standing_mode<N: NormalForce>(law: &PairLaw, present: Mode, partin
 pub(super) struct Base {
     pub force: f64,
     pub rate: f64,
+    /// Whether nothing presses the sides together, now and later in the mode.
+    pub is_slack: bool,
 }
 
 impl Base {
@@ -373,6 +375,7 @@ impl Base {
         Self {
             force: N::smooth_force(law, Mode::Loading, 0.0, approach),
             rate: N::force_rate(law, Mode::Loading, approach, geometry.change(law, bodies)),
+            is_slack: false,
         }
     }
 
@@ -382,7 +385,8 @@ impl Base {
             Mode::Hold => 0.0,
             mode => N::force_rate(law, mode, geometry.approach(bodies), geometry.change(law, bodies)),
         };
-        Self { force: contact.normal_force, rate }
+        let is_slack = contact.mode != Mode::Hold && contact.normal_force == 0.0 && rate == 0.0;
+        Self { force: contact.normal_force, rate, is_slack }
     }
 
     /// Whether a spring without elongation that is stretched at `velocity` sticks at first. With a damper it sticks at
