@@ -175,7 +175,8 @@ impl View<'_> {
         for &index in fired {
             let Some((pair, what)) = self.told(index) else { continue };
             if matches!(what, What::Lower | What::Upper) {
-                self.contacts.released.push(pair);
+                // Twice: beside this friction its force left the bounds, so the same friction is not tried again.
+                self.contacts.released.extend([pair, pair]);
             }
             let geometry = self.look(pair as usize);
             let bodies = self.bodies;
