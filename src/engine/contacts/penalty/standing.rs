@@ -88,11 +88,11 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
     };
     let mut some = false;
     let mut hold = |index: usize, contact: &Contact, geometry: &PairGeometry| {
-        let waits = released.iter().position(|&released| released as usize == index);
-        if let Some(place) = waits.filter(|_| !is_still::<N>(contact, laws.get(contact.law), geometry)) {
-            released.swap_remove(place);
+        let waits = released.contains(&(index as u32));
+        if waits && !is_still::<N>(contact, laws.get(contact.law), geometry) {
+            released.retain(|&released| released as usize != index);
         }
-        let holds = waits.is_none() && stands(contact, geometry);
+        let holds = !waits && stands(contact, geometry);
         some |= holds;
         holds
     };
