@@ -62,7 +62,7 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let mut exit = Exit::Good;
     let cut = cut || interrupt::asked();
     if interrupt::asked() {
-        let time = simulation.state().stopped_at().unwrap_or(simulation.clock().time());
+        let time = simulation.state().reached();
         let (time, end) = (time, simulation.ticks() as f64 * simulation.clock().dt);
         let (time, end) = (number(time), number(end));
         say(&format!(
@@ -172,7 +172,7 @@ fn print_result(
     };
     let result = RunResult {
         scene,
-        time: simulation.state().stopped_at().unwrap_or(clock.time()),
+        time: simulation.state().reached(),
         ticks: clock.ticks,
         seconds_spent: simulation.seconds_spent(),
         bodies: (0..bodies.len()).map(state).collect(),

@@ -193,7 +193,7 @@ impl Card {
             located: ChosenMethod::locates(world),
             steps: state.steps(),
             ticks: clock.ticks,
-            time: state.stopped_at().unwrap_or(clock.time()),
+            time: state.reached(),
             seconds_spent,
             energy_scale,
             given_back,

@@ -25,7 +25,8 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let advice = remedy.map_or_else(String::new, |remedy| format!(". Use {remedy}"));
     let mut warnings = Vec::new();
     let known = KnownError::of(world);
-    warnings.extend(known.as_ref().and_then(|known| known.warning.clone()));
+    let missed = known.as_ref().and_then(|known| known.warning.clone());
+    warnings.extend(missed.or_else(|| EstimatedError::beyond_tolerance(world)));
     // If steps follow their error, ticks are only moments at which the run is read.
     let by_ticks = known.is_none_or(|known| known.estimate.is_none());
     let by_ticks = by_ticks && world.get_resource::<Plan>().and_then(Plan::allowed).is_none();

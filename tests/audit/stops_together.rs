@@ -79,7 +79,7 @@ fn a_tolerance_that_all_runs_of_a_corner_miss_alike_is_not_said_to_be_reached() 
     let (tight, finest) = (told(", tolerance: 1e-7"), told(", method: Reference"));
     assert!(tight.contains("Do not trust its last digits: the tolerance of 1e-7 is not reached"), "{tight}");
     assert!(
-        finest.starts_with("Trust it: places to about") && finest.contains("at most. A note on the card tells why"),
+        finest.starts_with("Trust it: places to about") && finest.contains("at most. `b` came to rest on contacts"),
         "{finest}"
     );
 }

@@ -10,6 +10,11 @@ impl State {
         self.progress.goes_on = Some(goes_on);
     }
 
+    /// The time in s that the run has reached. It is that of the last tick, or the moment inside one at which the run was ended.
+    pub fn reached(&self) -> f64 {
+        self.stopped_at().unwrap_or(self.time())
+    }
+
     /// The time in s at which the run was ended inside a tick, if it was.
     pub fn stopped_at(&self) -> Option<f64> {
         let trouble = self.progress.trouble.filter(|trouble| matches!(trouble.wrong, FailureKind::Stopped))?;

@@ -26,7 +26,7 @@ use jostle_engine::simulation::accuracy::trajectory::Trajectory;
 use jostle_engine::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use jostle_engine::simulation::{Overrides, Plan};
 use jostle_engine::tick::{STANDS, State, stands};
-use jostle_language::numbers::number;
+use jostle_language::numbers::{number, percent};
 pub use other_kind::Elsewhere;
 use twins::{Finer, Told};
 use work::{Patience, SHARE};
@@ -84,21 +84,30 @@ pub struct EstimatedError {
     pub elsewhere: Option<Elsewhere>,
     /// The way in metres, in a finer run, of bodies that rest in this one. `None`: their springs give as much.
     pub restless: Option<f64>,
-    /// The error as a share of how far bodies go, if it counts more than runs with other steps tell.
-    pub raised: Option<f64>,
+    /// The greatest error that runs with other steps do not tell, if it is more than they do.
+    pub raised: Option<RaisedError>,
     /// The failure of a run with finer steps.
     pub failed: Option<String>,
     /// Further notes on it.
     pub notes: Vec<String>,
 }
 
+/// An error that runs with other steps share, so that their difference does not tell it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RaisedError {
+    /// As a share of how far bodies go.
+    pub share: f64,
+    /// Its reason: a sentence without its full stop.
+    pub why: String,
+}
+
 /// An error, as a share of the ways of bodies, at which a tick with located events is good.
 const SMALL: f64 = 1e-2;
 
 impl EstimatedError {
-    /// Raises the error of finite steps to at least `distance` metres and `speed` m/s. Bodies go as far as `motion` metres. Returns
-    /// whether the error of places was smaller, and known.
-    fn raise(&mut self, distance: f64, speed: f64, motion: f64) -> bool {
+    /// Raises the error of finite steps to at least `distance` metres and `speed` m/s, for the reason `why`. Bodies go as far as
+    /// `motion` metres. Returns whether the error of places was smaller, and known.
+    fn raise(&mut self, (distance, speed): (f64, f64), motion: f64, why: impl FnOnce() -> String) -> bool {
         let Some(error) = &mut self.estimate else { return false };
         let most = |part: &mut Option<f64>, value: f64| {
             let smaller = part.is_some_and(|old| old < value);
@@ -109,10 +118,24 @@ impl EstimatedError {
         let raised = most(&mut error.position.discretisation, distance);
         if raised {
             let raised = distance / motion;
-            self.raised = Some(self.raised.map_or(raised, |old| old.max(raised)));
+            if self.raised.as_ref().is_none_or(|old| old.share < raised) {
+                self.raised = Some(RaisedError { share: raised, why: why() });
+            }
             self.share = self.share.map(|share| share.max(raised));
         }
         raised
+    }
+
+    /// The reason why a tolerance is not reached whose runs agree: they share an error that is larger. A run of the other kind that
+    /// contradicts them tells its own.
+    pub fn beyond_tolerance(world: &World) -> Option<String> {
+        let found = world.get_resource::<Self>()?;
+        let (tolerance, raised) = world.get_resource::<KnownError>()?.tolerance.zip(found.raised.as_ref())?;
+        let RaisedError { share, why } = raised;
+        (*share > tolerance && found.elsewhere.is_none()).then(|| {
+            let (tolerance, share) = (number(tolerance), percent(*share));
+            format!("the tolerance of {tolerance} is not reached: all runs share an error of {share} of how far bodies go. {why}")
+        })
     }
 
     /// Whether events are located and the error of the whole run is known to be small. Then no rule of thumb calls its

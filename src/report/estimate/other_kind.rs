@@ -151,7 +151,9 @@ pub(super) fn check(
     ));
     let share = if until == ticks { distance / run.sizes().0 } else { f64::INFINITY };
     found.elsewhere = Some(Elsewhere { since, distance, share, tick });
-    found.raise(distance, speed, run.sizes().0);
+    found.raise((distance, speed), run.sizes().0, || {
+        format!("Velocity Verlet with a tick of {} s goes elsewhere by as much", number(tick))
+    });
     Ok(())
 }
 

@@ -15,11 +15,12 @@ use crate::card::name;
 pub(super) fn add(simulation: &Simulation, run: &Trajectory, found: &mut EstimatedError) {
     let wedged = simulation.resource::<State>().model::<PenaltyState>().and_then(PenaltyState::wedged);
     let Some(Wedged { body, since, gives }) = wedged else { return };
-    if found.raise(gives, 0.0, run.sizes().0) {
+    let body = name(simulation.unpublished_world(), body);
+    let why = || format!("`{body}` came to rest on contacts that face several ways. The last bounces decide how");
+    if found.raise((gives, 0.0), run.sizes().0, why) {
         found.notes.push(format!(
-            "rest: `{}` came to rest at t = {} s on contacts that face several ways. The last bounces decide how springs and friction \
+            "rest: `{body}` came to rest at t = {} s on contacts that face several ways. The last bounces decide how springs and friction \
              share its loads. So places are known to {} m, the sum of its overlaps. A higher stiffness makes it smaller",
-            name(simulation.unpublished_world(), body),
             number(since),
             rough(gives)
         ));

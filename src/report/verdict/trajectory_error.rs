@@ -15,7 +15,7 @@ const CONTRADICTS: f64 = 1e-4;
 
 /// The run does not reach the tolerance that its user asked for.
 pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
-    let missed = evidence.card.missed.clone().or_else(|| raised_beyond_tolerance(evidence));
+    let missed = evidence.card.missed.clone().or_else(|| EstimatedError::beyond_tolerance(evidence.world));
     let missed = missed.filter(|_| !evidence.card.stands)?;
     let part = match evidence.card.error {
         // If the comparison of runs gives no error, no digit is known.
@@ -24,17 +24,6 @@ pub(super) fn tolerance_not_reached(evidence: &Evidence) -> Option<Cause> {
         None => VerdictPart::LastDigits,
     };
     Some(Cause { trust: Trust::ButNot(part), what: missed, remedy: None })
-}
-
-/// Its runs agree as well as asked for, but share an error that is larger.
-fn raised_beyond_tolerance(evidence: &Evidence) -> Option<String> {
-    let estimated = evidence.world.get_resource::<EstimatedError>()?;
-    let (tolerance, raised) = evidence.card.tolerance().zip(estimated.raised)?;
-    // A contradiction tells its own distance.
-    (raised > tolerance && estimated.elsewhere.is_none()).then(|| {
-        let (tolerance, raised) = (number(tolerance), of_the_way(raised));
-        format!("the tolerance of {tolerance} is not reached: all runs share an error of {raised}. A note on the card tells why")
-    })
 }
 
 /// The scene goes wrong with finer steps. So the steps of this run are too coarse for it, also if its bodies come to

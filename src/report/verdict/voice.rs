@@ -91,13 +91,12 @@ fn praise(evidence: &Evidence) -> String {
     }
     let places = places(card).unwrap_or_default();
     if card.has_trials() {
-        let raised =
-            evidence.world.get_resource::<EstimatedError>().is_some_and(|estimated| estimated.raised.is_some());
-        if card.has_tolerance() && !raised {
-            return format!("Trust it: {places}, as several runs tell.");
+        let raised = evidence.world.get_resource::<EstimatedError>().and_then(|estimated| estimated.raised.as_ref());
+        if let Some(raised) = raised {
+            return format!("Trust it: {places} at most. {}.", raised.why);
         }
-        if raised {
-            return format!("Trust it: {places} at most. A note on the card tells why it is not less.");
+        if card.has_tolerance() {
+            return format!("Trust it: {places}, as several runs tell.");
         }
         return format!(
             "Trust it: {places} at most. A run with a hundred times the tolerance differs by so much. If the motion is \
