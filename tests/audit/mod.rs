@@ -5,6 +5,7 @@ mod begins_at_rest;
 mod begins_in_motion;
 mod boxes_on_rails;
 mod breaking;
+mod brief_slips;
 mod crowd;
 mod defaults;
 mod defects;

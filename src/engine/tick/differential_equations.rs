@@ -4,7 +4,7 @@
 use glam::DVec2;
 
 use super::model::Events;
-use super::{FromOutside, Rates, State, Tick};
+use super::{FromOutside, Indicator, Rates, State, Tick};
 use crate::tick::Flow;
 
 /// Accounts at the end of a state, behind those of models: drag, work, friction, inelasticity, impulse (2), angular impulse.
@@ -61,7 +61,8 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         self.stages = records.then(Vec::new);
     }
 
-    /// Ends the record. Returns the time in s of each evaluation, and the values of all indicators there.
+    /// Ends the record. Returns the time in s of each evaluation, and the values of all indicators there. Those of a known rate
+    /// are NaN.
     pub fn recorded_stages(&mut self) -> Vec<(f64, Vec<f64>)> {
         self.stages.take().unwrap_or_default()
     }
@@ -70,7 +71,9 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let Some(stages) = &mut self.stages else { return };
         let mut told = Vec::new();
         self.tick.tell(&mut told);
-        stages.push((time, told.iter().map(|indicator| indicator.value).collect()));
+        // Others last at this stage.
+        let value = |told: &Indicator| if told.is_sampled() { told.value } else { f64::NAN };
+        stages.push((time, told.iter().map(value).collect()));
     }
 
     /// Places of the accounts in a state.

@@ -367,6 +367,11 @@ impl Indicator {
         Self::new(value, f64::NAN, bend)
     }
 
+    /// Of a mode that does not end by itself as long as others last.
+    pub fn lasting(value: f64) -> Self {
+        Self::new(value, 0.0, Bend::AtMost(0.0))
+    }
+
     /// Whether its course within a step shows in its values at the stages of the step.
     pub fn is_sampled(&self) -> bool {
         self.slope.is_nan()

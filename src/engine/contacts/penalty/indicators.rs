@@ -257,11 +257,12 @@ pub(super) fn tell_slider(
             let force = [slider.force(law), known * motion.velocity, known * motion.rate];
             let limit = [pressure.force, pressure.rate, pressure.second_rate].map(|rate| law.friction_static * rate);
             for (positive, sign) in [(true, -1.0), (false, 1.0)] {
-                let [mut value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
+                let [value, slope, second_rate] = [0, 1, 2].map(|rate| limit[rate] + sign * force[rate]);
                 let bend = bend(slope, second_rate);
                 // A contact that gives its bound does not slip: others hold it, and they tell when that ends.
-                if grip == Grip::Hold && force[0].abs() == limit[0] {
-                    value = value.max(limit[0]);
+                if grip == Grip::Hold && value == 0.0 {
+                    say(PhaseEnd::Gives(positive), Indicator::lasting(limit[0]));
+                    continue;
                 }
                 // A spring that stopped has the force of the cone, and at first the same rate.
                 let rounding = ROUNDING * (force[0].abs() + limit[0].abs()) + noise;

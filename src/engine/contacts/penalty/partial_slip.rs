@@ -11,6 +11,7 @@ use glam::DVec2;
 
 use super::apply::PenaltyContacts;
 use super::coulomb::Grip;
+use super::normal::Mode;
 use super::switching::View;
 use crate::constraints::islands::IslandLink;
 use crate::contacts::CandidatePairs;
@@ -21,6 +22,9 @@ use crate::world::Bodies;
 /// the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of 120 degrees it is at
 /// 60 degrees, where a disc cannot roll on one side alone.
 const OPPOSITE: f64 = 0.5;
+
+/// Friction is at its bound above one minus this share of it. Forces of rows that depend on each other are exact to a tenth of it.
+const AT_BOUND: f64 = 1e-9;
 
 /// A contact of two bodies.
 struct Link {
@@ -65,6 +69,30 @@ impl PenaltyContacts {
 }
 
 impl View<'_> {
+    /// Friction that holds at its bound beside contacts whose friction gives way now gives way with them. Others of the same bodies
+    /// held it so far.
+    pub(super) fn give_together(&mut self, gave: &[u32]) {
+        let between = |view: &Self, index: usize| {
+            let bodies = view.bodies;
+            let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
+            let pair = view.look(index).pair;
+            let (a, b) = (of(pair.other_body()), of(Some(pair.b.body)));
+            (a.min(b), a.max(b))
+        };
+        let groups: Vec<_> = gave.iter().map(|&index| between(self, index as usize)).collect();
+        for index in 0..if groups.is_empty() { 0 } else { self.len() } {
+            let bodies = between(self, index);
+            let (mut contact, law) = self.contact(index);
+            let slider = law.tangential();
+            let limit = slider.friction_static * contact.normal_force;
+            let force = contact.tangential.force(&slider);
+            let bound = contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold && slider.acts();
+            if bound && force != 0.0 && force.abs() >= limit * (1.0 - AT_BOUND) && groups.contains(&bodies) {
+                contact.give(law, force > 0.0);
+            }
+        }
+    }
+
     /// Finds the contacts that slip beside others which stick. Says whether the friction of one that slides has changed.
     /// `staged`: contacts are evaluated in stages of steps. Else the search for rest lets friction go that holds, for all
     /// contacts of a body at once.

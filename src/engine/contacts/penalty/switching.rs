@@ -171,9 +171,12 @@ impl View<'_> {
         self.contacts.held_before = Some(self.stored(|_| true));
         self.grip_stopped();
         self.note_springs();
-        let mut turned = Vec::new();
+        let (mut turned, mut gave) = (Vec::new(), Vec::new());
         for &index in fired {
             let Some((pair, what)) = self.told(index) else { continue };
+            if matches!(what, What::Give(_)) {
+                gave.push(pair);
+            }
             if matches!(what, What::Lower | What::Upper) {
                 // Twice: beside this friction its force left the bounds, so the same friction is not tried again.
                 self.contacts.released.extend([pair, pair]);
@@ -204,6 +207,7 @@ impl View<'_> {
                 (None, _) => {}
             }
         }
+        self.give_together(&gave);
         let stopped = self.contacts.stopped.clone();
         self.contacts.turned.clone_from(&turned);
         standing::stop_together::<N>(self, &stopped, 0.0);
@@ -489,16 +493,19 @@ impl Contact {
             What::Turn => self.mode = N::after(self.mode, false),
             What::Lower => self.mode = Mode::Unloading,
             What::Upper => self.mode = Mode::Loading,
-            What::Give(positive) if self.mode != Mode::Open => {
-                self.tangential.grip = Grip::Slide;
-                self.tangential.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
-                self.slide(law, self.normal_force);
-            }
+            What::Give(positive) if self.mode != Mode::Open => self.give(law, positive),
             What::Stop if self.mode != Mode::Open => {
                 self.tangential.grip = if self.holds_rigidly(law) { Grip::Hold } else { Grip::Stick };
             }
             What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop | What::Border(_) => {}
         }
+    }
+
+    /// Friction gives way with a force of this sign.
+    pub(super) fn give(&mut self, law: &PairLaw, positive: bool) {
+        self.tangential.grip = Grip::Slide;
+        self.tangential.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
+        self.slide(law, self.normal_force);
     }
 
     /// Adapts the spring to a normal mode that has changed. When the normal is released, the spring replaces the hold.
