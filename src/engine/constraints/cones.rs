@@ -8,6 +8,9 @@ use super::rows::Rows;
 use crate::world::Bodies;
 use serde::{Deserialize, Serialize};
 
+/// The forces of rows that depend on each other are exact to a tenth of this share.
+pub const DEPENDENT: f64 = 1e-9;
+
 /// A row that the others hold accelerates by at most this share of all accelerations that cancel there. Dependent rows leave
 /// 1e-10, and a row that is free leaves all of it.
 pub const HOLDS: f64 = 1e-6;

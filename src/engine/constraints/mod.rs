@@ -30,7 +30,7 @@ mod solver;
 pub mod spring_network;
 mod structure;
 
-pub use cones::{Cone, ConePressure, HOLDS};
+pub use cones::{Cone, ConePressure, DEPENDENT, HOLDS};
 pub use dead_point::DeadPoints;
 pub use projection::{Gap, Projection, Standing};
 pub use redundant::Share;

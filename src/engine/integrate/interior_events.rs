@@ -17,6 +17,7 @@
 //! differences. Stages are less exact than the step, so they only suggest moments at which the step is evaluated.
 
 use super::locate::{IndicatorSample, cubic, is_open, vanished};
+use crate::constraints::DEPENDENT;
 use crate::tick::Indicator;
 
 /// Looks into one step.
@@ -25,9 +26,6 @@ const MOST_LOOKS: usize = 24;
 /// A fitted bound below zero by less than this share of the values at both ends is no event. Otherwise a value that
 /// begins at zero would be looked at again and again.
 const SIGNIFICANT: f64 = 1e-3;
-
-/// The forces of rows that depend on each other are exact to a tenth of this share. A dip that is less deep is none.
-const NOISE: f64 = 1e-9;
 
 /// The estimated error of a fitted cubic counts this many times.
 const WARY: f64 = 4.0;
@@ -247,8 +245,8 @@ fn dip(course: &[(f64, f64)], (first, last): (usize, usize)) -> Option<f64> {
         let comes_back = end.1 >= 0.0 || !inner[first..].iter().all(|point| below(&point));
         return comes_back.then_some(inner[first].0);
     }
-    // A course is below its chord by at most an eighth of its bend.
-    let deepest = 8.0 * NOISE * course.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
+    // A course is below its chord by at most an eighth of its bend. A dip less deep than the error of forces is none.
+    let deepest = 8.0 * DEPENDENT * course.iter().map(|point| point.1.abs()).fold(0.0, f64::max);
     let bend = |at: usize| {
         let [(a, first), (b, middle), (c, last)] = [course[at - 1], course[at], course[at + 1]];
         2.0 * ((last - middle) / (c - b) - (middle - first) / (b - a)) / (c - a)

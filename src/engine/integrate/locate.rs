@@ -21,9 +21,6 @@ const MOST_ON_ONE_SIDE: i32 = 3;
 /// with it at zero, and rounding puts them below.
 const AT_ONCE: f64 = 1e-6;
 
-/// An indicator whose value fell by this factor in a step was not at zero at its beginning.
-const FALLEN: f64 = 1e6;
-
 /// The indicators at a share of a step.
 #[derive(Clone, Debug)]
 pub struct IndicatorSample {
@@ -46,8 +43,6 @@ pub struct Bracket {
     open: Vec<bool>,
     /// The indicators that were below zero at a look after that.
     crossing: Vec<bool>,
-    /// The indicators that begin well above zero. One of them that ends at zero, up to rounding, meets the event.
-    falling: Vec<bool>,
     /// The share tried last.
     tried: f64,
     guesses: u32,
@@ -65,10 +60,8 @@ impl Bracket {
         if !crossing.contains(&true) {
             return None;
         }
-        let falling = begin.iter().zip(&high.indicators).map(|(a, b)| a.value > FALLEN * b.value.abs()).collect();
         Some(Self {
             length,
-            falling,
             scale: begin.iter().zip(&high.indicators).map(|(a, b)| a.value.abs().max(b.value.abs())).collect(),
             open: begin.iter().map(|indicator| is_open(indicator, length)).collect(),
             tried: high.share,
@@ -126,8 +119,7 @@ impl Bracket {
         let zero = |index: usize| indicators[index].rounding.max(ZERO * self.scale[index]);
         let rises = |indicator: &Indicator| indicator.value > 0.0 && indicator.slope > 0.0;
         let vanishes = |index: &usize| indicators[*index].value <= zero(*index) && !rises(&indicators[*index]);
-        let meets = |&index: &usize| self.crossing[index] || self.falling[index] && self.open[index];
-        (0..indicators.len()).filter(meets).filter(vanishes).collect()
+        (0..indicators.len()).filter(|&index| self.crossing[index]).filter(vanishes).collect()
     }
 
     /// The earliest of the guesses for all that have crossed.

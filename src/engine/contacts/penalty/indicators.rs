@@ -7,16 +7,13 @@ use super::normal::{Change, Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::switching::{View, What};
+use crate::constraints::DEPENDENT;
 use crate::contacts::geometry::{PairGeometry, Shares};
 use crate::tick::{Bend, Indicator};
 use crate::world::Bodies;
 
 /// The weight of a turn of the line of centres against a swing. A body that passes another one turns it by half a turn.
 const TURNS: f64 = 4.0;
-
-/// A contact that rows hold at another place accelerates by at most this share of what its force does alone. Forces of dependent
-/// rows leave 1e-10.
-const HELD: f64 = 1e-9;
 
 /// A rate that is not known.
 const UNKNOWN: f64 = f64::NAN;
@@ -72,7 +69,7 @@ impl Pressure {
     /// still at an end of its band. Joints hold sides that just meet. The sign of the velocity that rounding leaves ends no
     /// mode.
     fn rests(&self, change: Change) -> bool {
-        change.parting.abs() <= (HELD * self.acceleration).max(self.unknown_acceleration)
+        change.parting.abs() <= (DEPENDENT * self.acceleration).max(self.unknown_acceleration)
     }
 }
 

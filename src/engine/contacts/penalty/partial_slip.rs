@@ -13,6 +13,7 @@ use super::apply::PenaltyContacts;
 use super::coulomb::Grip;
 use super::normal::Mode;
 use super::switching::View;
+use crate::constraints::DEPENDENT;
 use crate::constraints::islands::IslandLink;
 use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
@@ -22,9 +23,6 @@ use crate::world::Bodies;
 /// the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of 120 degrees it is at
 /// 60 degrees, where a disc cannot roll on one side alone.
 const OPPOSITE: f64 = 0.5;
-
-/// Friction is at its bound above one minus this share of it. Forces of rows that depend on each other are exact to a tenth of it.
-const AT_BOUND: f64 = 1e-9;
 
 /// A contact of two bodies.
 struct Link {
@@ -39,9 +37,7 @@ struct Link {
 
 impl Link {
     fn of(index: usize, geometry: &PairGeometry, place: DVec2, grip: Grip, bodies: &Bodies) -> Self {
-        let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
-        let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
-        Self { bodies: (a.min(b), a.max(b)), index, place, normal: geometry.pair.normal, grip }
+        Self { bodies: between(geometry, bodies), index, place, normal: geometry.pair.normal, grip }
     }
 
     /// Whether another contact of the same bodies sticks, so that this one cannot slide.
@@ -50,6 +46,13 @@ impl Link {
         let opposite = OPPOSITE * way.dot(self.normal).abs() >= way.perp_dot(self.normal).abs();
         matches!(other.grip, Grip::Stick | Grip::Hold) && other.index != self.index && !opposite
     }
+}
+
+/// Both bodies of a contact in order; `None` for all that does not move.
+fn between(geometry: &PairGeometry, bodies: &Bodies) -> (Option<usize>, Option<usize>) {
+    let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
+    let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
+    (a.min(b), a.max(b))
 }
 
 impl PenaltyContacts {
@@ -72,13 +75,7 @@ impl View<'_> {
     /// Friction that holds at its bound beside contacts whose friction gives way now gives way with them. Others of the same bodies
     /// held it so far.
     pub(super) fn give_together(&mut self, gave: &[u32]) {
-        let between = |view: &Self, index: usize| {
-            let bodies = view.bodies;
-            let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
-            let pair = view.look(index).pair;
-            let (a, b) = (of(pair.other_body()), of(Some(pair.b.body)));
-            (a.min(b), a.max(b))
-        };
+        let between = |view: &Self, index: usize| between(&view.look(index), view.bodies);
         let groups: Vec<_> = gave.iter().map(|&index| between(self, index as usize)).collect();
         for index in 0..if groups.is_empty() { 0 } else { self.len() } {
             let bodies = between(self, index);
@@ -87,7 +84,7 @@ impl View<'_> {
             let limit = slider.friction_static * contact.normal_force;
             let force = contact.tangential.force(&slider);
             let bound = contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold && slider.acts();
-            if bound && force != 0.0 && force.abs() >= limit * (1.0 - AT_BOUND) && groups.contains(&bodies) {
+            if bound && force != 0.0 && force.abs() >= limit * (1.0 - DEPENDENT) && groups.contains(&bodies) {
                 contact.give(law, force > 0.0);
             }
         }
