@@ -144,12 +144,17 @@ impl PairBlocks {
         &self.sides()[block]
     }
 
+    /// Whether so many records are all that pairs may need.
+    pub fn records_fit(&self, count: usize) -> bool {
+        self.blocks.is_empty() || self.records.max(1) <= count
+    }
+
     /// The records of both sides of all pairs.
     ///
     /// # Panics
     /// If there are fewer records than that.
     pub fn records<'a>(&'a self, records: &'a [Record]) -> PairedRecords<'a> {
-        assert!(self.blocks.is_empty() || self.records.max(1) <= records.len(), "a pair of what is not there");
+        assert!(self.records_fit(records.len()), "a pair of what is not there");
         PairedRecords { pairs: self, sides: self.sides(), records }
     }
 }

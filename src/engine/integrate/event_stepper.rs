@@ -196,7 +196,8 @@ impl EventStepper {
     }
 
     /// Makes a step with frozen modes from `from` towards `until` seconds, no further than to the first event. The state at
-    /// its end is the present one, and evaluated. `None`: too many indicators vanish, and the state is the one of the beginning.
+    /// its end is the present one, and evaluated. `None`: too many indicators vanish, or the run is to end. Then the state is the one of
+    /// the beginning.
     fn make(&mut self, flow: &mut WorldFlow, from: f64, until: f64) -> Option<Made> {
         self.begin(flow);
         let mut until = until.min(from + longest_under_loads(flow, &self.work.indicators, from));
@@ -229,6 +230,9 @@ impl EventStepper {
             // The modes may end long before: forces of frozen modes need not stay bounded behind their end.
             until = shorter;
             flow.write(&self.state);
+            if flow.tick.is_stopped(from) {
+                return None;
+            }
             flow.tick.recall_bounds();
             flow.tick.renew_lists(from);
             flow.tick.reserve(from, until - from, reach_of_lists);
@@ -242,6 +246,9 @@ impl EventStepper {
             // Forces grew inside the step: from its beginning once more, with lists that reach farther.
             reach_of_lists *= 4.0;
             flow.write(&self.state);
+            if flow.tick.is_stopped(from) {
+                return None;
+            }
             flow.tick.renew_lists(from);
             flow.tick.reserve(from, until - from, reach_of_lists);
             self.begin(flow);
@@ -545,7 +552,9 @@ impl Integrator for EventStepper {
                     let mut flow = WorldFlow::new(tick);
                     self.take_up(&mut flow);
                     let Some(made) = self.make(&mut flow, now, until) else {
-                        self.overload.begin(tick, now);
+                        if !tick.is_stopped(now) {
+                            self.overload.begin(tick, now);
+                        }
                         break;
                     };
                     // A step cut short counts, whatever it was for: so a tick comes to its end.

@@ -2,6 +2,7 @@
 
 use super::failure::{FailureKind, Trouble};
 use super::{State, Tick};
+use crate::world::finite;
 
 impl State {
     /// From now on `goes_on` is asked at each step inside a tick, with the time in s of that step. Once it answers `false`, the
@@ -23,15 +24,22 @@ impl State {
 }
 
 impl Tick<'_> {
-    /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended.
+    /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended, or as failed if the present state
+    /// is not finite.
     pub fn is_stopped(&mut self, time: f64) -> bool {
-        let progress = &mut self.state.progress;
-        let Some(goes_on) = progress.goes_on else { return false };
+        let Some(goes_on) = self.state.progress.goes_on else { return false };
         let stopped = !goes_on(time);
         if stopped {
-            let tick = self.state.clock.ticks + 1;
-            let trouble = Trouble { body: None, entity: None, wrong: FailureKind::Stopped, tick, time };
-            progress.trouble.get_or_insert(trouble);
+            let state = &mut *self.state;
+            state.bodies.catch_up();
+            state.land();
+            // No tick that ends looks at this state.
+            let (body, wrong) = match finite::first_not_finite(&state.bodies) {
+                Some((body, quantity)) => (Some(body), FailureKind::NotFinite(quantity)),
+                None => (None, FailureKind::Stopped),
+            };
+            let trouble = Trouble { body, entity: None, wrong, tick: state.clock.ticks + 1, time };
+            state.progress.trouble.get_or_insert(trouble);
         }
         stopped
     }

@@ -38,14 +38,46 @@ pub(super) struct Records {
     trusted: u32,
 }
 
+/// The atoms that move and that these pairs need, in order, or none in place of most. And whether records of those alone suffice.
+fn needs(bodies: &Bodies, pairs: &[AtomPair]) -> (Vec<u32>, bool) {
+    let mut needed = vec![false; bodies.atom_count()];
+    for pair in pairs {
+        needed[pair.a as usize] = true;
+        needed[pair.b as usize] = true;
+    }
+    let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
+    let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
+    // If most are needed, visiting all in order is faster.
+    let few = 4 * count < 3 * needed.len();
+    let sparse = few && bodies.lone_discs && bodies.all_dynamic;
+    let mut list = Vec::new();
+    if few || !bodies.lone_discs {
+        list.reserve_exact(count);
+        list.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
+    }
+    (list, sparse)
+}
+
 impl Records {
-    /// Whether the records are those of so many atoms, and pairs find theirs among them.
-    pub fn fits(&self, atoms: usize, contacts: &ContactList, lent: &[Record]) -> bool {
-        let listed = if self.list.is_empty() { lent.len() } else { self.list.len() };
-        let count = if self.sparse { self.needed.len() } else { atoms };
-        self.needed.iter().all(|atom| (*atom as usize) < atoms)
-            && self.needed.is_sorted_by(|a, b| a < b)
-            && (listed == count || contacts.is_empty() && listed == 0)
+    /// Whether the records are those that these pairs need, and each pair finds its own among them.
+    pub fn fits(&self, bodies: &Bodies, pairs: &[AtomPair], contacts: &ContactList) -> bool {
+        let Self { list, needed, sparse, .. } = self;
+        let lent = &bodies.records;
+        let listed = if lent.is_empty() { list.len() } else { lent.len() };
+        let count = if *sparse { needed.len() } else { bodies.atom_count() };
+        if pairs.is_empty() {
+            return needed.is_empty() && (listed == 0 || listed == count);
+        }
+        let own =
+            |record: u32, atom: u32| if *sparse { needed.get(record as usize) == Some(&atom) } else { record == atom };
+        let found = |(index, pair): (usize, &AtomPair)| {
+            let (a, b) = contacts.pairs.side(index / BLOCK).get(index % BLOCK);
+            own(a, pair.a) && own(b, pair.b)
+        };
+        needs(bodies, pairs) == (needed.clone(), *sparse)
+            && listed == count
+            && contacts.pairs.records_fit(listed)
+            && pairs.iter().enumerate().all(found)
     }
 
     /// After an evaluation: lends them to the bodies until the next one, if all were needed. It requires that no other
@@ -68,33 +100,19 @@ impl Records {
     /// Takes up new lists of pairs.
     pub fn prepare(&mut self, bodies: &Bodies, pairs: &[AtomPair], contacts: &mut ContactList) {
         self.list.clear();
-        self.needed.clear();
         (self.all, self.current) = (false, false);
-        let mut needed = vec![false; bodies.atom_count()];
-        for pair in pairs {
-            needed[pair.a as usize] = true;
-            needed[pair.b as usize] = true;
-        }
-        let moves = |atom: usize| bodies.moves[bodies.atom_body(atom)];
-        let count = (0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).count();
-        // If most are needed, visiting all in order is faster.
-        let few = 4 * count < 3 * needed.len();
-        if few || !bodies.lone_discs {
-            self.needed.reserve_exact(count);
-            self.needed.extend((0..needed.len()).filter(|&atom| needed[atom] && moves(atom)).map(|atom| atom as u32));
-        }
-        self.sparse = few && bodies.lone_discs && bodies.all_dynamic;
+        (self.needed, self.sparse) = needs(bodies, pairs);
         if self.sparse {
-            let mut index = vec![0; needed.len()];
+            let mut index = vec![0; bodies.atom_count()];
             self.needed.iter().zip(0..).for_each(|(&atom, number)| index[atom as usize] = number);
-            contacts.pairs.find_records(&index, count);
-            self.list.reserve_exact(count);
+            contacts.pairs.find_records(&index, self.needed.len());
+            self.list.reserve_exact(self.needed.len());
             self.list.extend(self.needed.iter().map(|&atom| record(bodies, atom as usize)));
             return;
         }
         // Those of bodies at rest or asleep are not filled in again.
-        self.list.reserve_exact(needed.len());
-        self.list.extend((0..needed.len()).map(|atom| record(bodies, atom)));
+        self.list.reserve_exact(bodies.atom_count());
+        self.list.extend((0..bodies.atom_count()).map(|atom| record(bodies, atom)));
     }
 
     /// Fills in the current state for all pairs that have to be evaluated; see [`super::kernel::EvaluationTime::path`].

@@ -29,8 +29,7 @@ pub(super) fn demand_fit<N: NormalForce>(own: &PenaltyState, state: &State) -> R
         let places = pairs.atoms.iter().map(|pair| (pair.a, pair.b));
         let same = places.enumerate().all(|(index, pair)| atoms.pairs.place(index) == Some(pair));
         demand(same, "the places of contacts")?;
-        let (records, lent) = (&contacts.records, &bodies.records);
-        demand(records.fits(bodies.atom_count(), atoms, lent), "the records of contacts")?;
+        demand(contacts.records.fits(bodies, &pairs.atoms, atoms), "the records of contacts")?;
     }
     if let Some(rolling) = rolling {
         let numbers = rolling.atoms.iter().chain(&rolling.surfaces).all(|one| (one.elongation + one.held).is_finite());
