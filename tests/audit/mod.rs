@@ -3,6 +3,7 @@
 mod agreement;
 mod begins_at_rest;
 mod begins_in_motion;
+mod blows_at_rest;
 mod boxes_on_rails;
 mod breaking;
 mod brief_slips;

@@ -1,6 +1,7 @@
 //! Penalty contacts: forces from overlaps (soft-sphere discrete element method). Normal, tangential and rolling law are
 //! independent choices.
 
+mod after_blow;
 pub mod apply;
 pub mod at_rest;
 mod begun;

@@ -190,6 +190,14 @@ impl<N: NormalForce> Model for Contacts<N> {
         true
     }
 
+    fn after_blow(&mut self, state: &mut State) {
+        let State { bodies, pairs: Some(pairs), evaluation, .. } = state else { return };
+        let PenaltyState { contacts, rolling } = &mut self.own;
+        if evaluation.mode == EvaluationMode::Frozen && contacts.version == pairs.version {
+            View { bodies, pairs, contacts, rolling: rolling.as_mut() }.come_loose_by_blow();
+        }
+    }
+
     fn take_rows(&mut self, state: &mut State) {
         let PenaltyState { contacts, rolling } = &mut self.own;
         let State { bodies, rates, rows, .. } = state;

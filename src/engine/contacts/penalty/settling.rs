@@ -27,13 +27,7 @@ impl View<'_> {
     ///
     /// Friction waits for the normal forces. A contact that is tried as held has a separate force until it is released.
     pub fn settle<N: NormalForce>(&mut self) -> bool {
-        if self.contacts.held_before.is_none() {
-            // Another model may have ended the step: what springs that slip have given in it is lost too.
-            let slid = self.close_slides();
-            self.contacts.held_before = Some(self.stored(|_| true) + slid);
-            self.note_springs();
-            self.contacts.stopped.clear();
-        }
+        self.open_account();
         let corrected = self.share_cones(true)
             || self.settle_held_friction::<N>()
             || self.settle_normals::<N>()
@@ -46,6 +40,17 @@ impl View<'_> {
             self.contacts.slid = self.sliding_energy();
         }
         corrected
+    }
+
+    /// Notes the energy and the springs before modes change. The loss of energy is booked when all modes have settled.
+    pub(super) fn open_account(&mut self) {
+        if self.contacts.held_before.is_none() {
+            // Another model may have ended the step: what springs that slip have given in it is lost too.
+            let slid = self.close_slides();
+            self.contacts.held_before = Some(self.stored(|_| true) + slid);
+            self.note_springs();
+            self.contacts.stopped.clear();
+        }
     }
 
     /// Springs that stand begin to swing with the forces of the modes that were found. Only beside a normal force that is held does
@@ -133,7 +138,7 @@ impl View<'_> {
 
     /// A held contact goes on in a mode. Its springs are as drawn as `before`: a slide that was tried at this moment drew none.
     /// Friction that slid up to this moment slides on.
-    fn release(&mut self, index: usize, mode: Mode, mut before: [Option<Slider>; 2]) {
+    pub(super) fn release(&mut self, index: usize, mode: Mode, mut before: [Option<Slider>; 2]) {
         if self.contacts.stopped.contains(&(index as u32)) {
             before[0] = None;
         }

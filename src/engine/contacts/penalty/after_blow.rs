@@ -1,0 +1,70 @@
+//! Contacts that are held while velocities jump, as a rope becomes taut or a limit is reached. A spring gives no impulse, so the jump
+//! goes past it. A contact whose sides move afterwards comes loose, or its hold would take that motion away.
+
+use super::coulomb::{Grip, ROUNDING};
+use super::normal::Mode;
+use super::switching::View;
+use crate::contacts::geometry::PairGeometry;
+
+/// Whether one side turns on the other by more than rounding, for a velocity in m/s at the contact.
+fn turns(geometry: &PairGeometry, rounding: f64) -> bool {
+    geometry.turning().abs() * geometry.pair.b.radius > rounding
+}
+
+impl View<'_> {
+    /// Lets go of what is held and moves after a jump of velocities.
+    pub fn come_loose_by_blow(&mut self) {
+        let moving: Vec<usize> = (0..self.len()).filter(|&index| self.moves_though_held(index)).collect();
+        if moving.is_empty() {
+            return;
+        }
+        self.open_account();
+        for &index in &moving {
+            let geometry = self.look(index);
+            let parts = geometry.parting();
+            if self.contact(index).0.mode == Mode::Hold && parts.abs() > self.rounding_of_velocity(index) {
+                self.release(index, if parts > 0.0 { Mode::Unloading } else { Mode::Loading }, [None, None]);
+            }
+            self.let_slide(index);
+        }
+    }
+
+    /// A velocity in m/s that is rounding at a contact. Its scale is the speed of the sides, and the speed that its spring would give.
+    fn rounding_of_velocity(&mut self, index: usize) -> f64 {
+        let (geometry, bodies) = (self.look(index), self.bodies);
+        let law = self.contact(index).1;
+        let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
+        ROUNDING * (geometry.speed(law.shares()) + swing)
+    }
+
+    fn moves_though_held(&mut self, index: usize) -> bool {
+        let (geometry, rounding) = (self.look(index), self.rounding_of_velocity(index));
+        let turns = turns(&geometry, rounding);
+        let (contact, law, roller) = self.whole(index, &geometry);
+        let parts = contact.mode == Mode::Hold && geometry.parting().abs() > rounding;
+        let grips = contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold;
+        let slides = grips && law.tangential().acts() && geometry.sliding(law.shares()).abs() > rounding;
+        let rolls = turns && roller.is_some_and(|(slider, _)| slider.grip == Grip::Hold);
+        parts || slides || rolls
+    }
+
+    /// Replaces a friction that is held between sides that slide or turn by its spring. Without one, it slides.
+    fn let_slide(&mut self, index: usize) {
+        let (geometry, rounding) = (self.look(index), self.rounding_of_velocity(index));
+        let turns = turns(&geometry, rounding);
+        let (mut contact, law, roller) = self.whole(index, &geometry);
+        let sliding = geometry.sliding(law.shares());
+        if contact.tangential.grip == Grip::Hold && law.tangential().acts() && sliding.abs() > rounding {
+            if law.exact {
+                contact.give(law, sliding > 0.0);
+            } else {
+                contact.tangential.let_go(&law.tangential());
+                contact.tangential.held = 0.0_f64.copysign(sliding);
+            }
+        }
+        if let Some((slider, law)) = roller.filter(|(slider, _)| turns && slider.grip == Grip::Hold) {
+            slider.let_go(&law);
+            slider.held = 0.0_f64.copysign(geometry.turning());
+        }
+    }
+}
