@@ -5,6 +5,8 @@
 //! polygon. Side i runs from corner i to the next corner. Corners run counter-clockwise, so that the outside lies right
 //! of each side. Lengths are in metres.
 
+use std::collections::BTreeMap;
+
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
@@ -240,11 +242,8 @@ impl Hull {
     fn half_width_by(&self, known: &mut Thicknesses) -> f64 {
         known.begin(&self.outline);
         let least = |widths: &mut dyn Iterator<Item = f64>| widths.fold(f64::INFINITY, f64::min);
-        let all = 0..self.outline.len();
-        let own = |index: &usize| {
-            let at = self.corners.iter().position(|corner| *corner == self.outline[*index]);
-            at.is_some_and(|at| !self.sides[at].inner)
-        };
+        let outer = self.corners.iter().zip(&self.sides).filter(|(_, side)| !side.inner);
+        let own: Vec<usize> = outer.filter_map(|(corner, _)| known.places.get(&bits(*corner)).copied()).collect();
         let across = |side: &HullSide| {
             let heights = self.corners.iter().map(|corner| side.normal.dot(*corner));
             let (low, high) = heights
@@ -254,10 +253,10 @@ impl Hull {
         let width = match (self.outline.is_empty(), self.corners.len()) {
             (true, 1 | 2) => 0.0,
             (true, _) => least(&mut self.sides.iter().map(across)),
-            _ if all.clone().any(|index| own(&index)) => least(&mut all.filter(own).map(|index| known.of(self, index))),
+            _ if !own.is_empty() => least(&mut own.into_iter().map(|index| known.of(self, index))),
             _ => match known.least {
                 Some(least) => least,
-                None => *known.least.insert(least(&mut all.map(|index| self.thickness(index)))),
+                None => *known.least.insert(least(&mut (0..self.outline.len()).map(|index| self.thickness(index)))),
             },
         };
         0.5 * width + self.radius
@@ -286,10 +285,17 @@ impl Hull {
     }
 }
 
+/// The bits of a place, by which it is found.
+fn bits(point: DVec2) -> [u64; 2] {
+    [point.x.to_bits(), point.y.to_bits()]
+}
+
 /// The thicknesses of an outline that were asked for.
 #[derive(Default)]
 struct Thicknesses {
     outline: Vec<DVec2>,
+    /// The index of each of its points.
+    places: BTreeMap<[u64; 2], usize>,
     of_side: Vec<Option<f64>>,
     /// The least one of all.
     least: Option<f64>,
@@ -299,7 +305,8 @@ impl Thicknesses {
     /// Begins anew with another outline.
     fn begin(&mut self, outline: &[DVec2]) {
         if self.outline != outline {
-            *self = Self { outline: outline.to_vec(), of_side: vec![None; outline.len()], least: None };
+            let places = outline.iter().enumerate().map(|(index, point)| (bits(*point), index)).collect();
+            *self = Self { outline: outline.to_vec(), places, of_side: vec![None; outline.len()], least: None };
         }
     }
 
