@@ -5,6 +5,7 @@ use std::fmt;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 
 use crate::chance::Chance;
+use crate::laws;
 use crate::run::{Outcome, Ran, in_pieces, run};
 use crate::ways::{self, Way};
 
@@ -13,11 +14,13 @@ pub const USUAL: f64 = 3.0;
 /// ... and a difference beyond this one is grave.
 pub const GRAVE: f64 = 10.0;
 /// Places in m that differ by no more are rounding, of which runs state nothing unless asked.
-const ROUNDING: f64 = 1e-10;
+pub const ROUNDING: f64 = 1e-10;
 
 /// The kind of a broken promise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
 pub enum Kind {
+    /// A trusted run goes elsewhere than velocity Verlet with ever finer ticks.
+    Apart,
     /// A run is wrong by more than three times what it states.
     Understated,
     /// By more than ten times.
@@ -89,9 +92,10 @@ fn default_tick(text: &str) -> Option<f64> {
 }
 
 /// Runs a scene in all ways that are wanted, by their numbers or names, and compares the runs. Each way is told before it begins.
+/// `by_laws`: trusted runs are compared with the limit of velocity Verlet too.
 pub fn judge(
     text: &str,
-    wanted: impl Fn(usize, &Way) -> bool,
+    (wanted, by_laws): (impl Fn(usize, &Way) -> bool, bool),
     most: u64,
     chance: &mut Chance,
     tell: impl Fn(&str),
@@ -140,6 +144,14 @@ pub fn judge(
     tell("in pieces");
     judged.bits(text, &ran, chance);
     judged.compare(&ran);
+    if by_laws {
+        tell("laws");
+        // Finer ticks take more evaluations.
+        match guarded(|| laws::apart(text, tick, 32 * most, &ran)) {
+            Ok(finds) => judged.finds.extend(finds),
+            Err(panic) => judged.found(Kind::Panics, "laws", panic),
+        }
+    }
     judged
 }
 

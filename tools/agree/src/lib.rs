@@ -3,6 +3,7 @@
 pub mod chance;
 pub mod judge;
 pub mod language;
+pub mod laws;
 pub mod minimise;
 pub mod ranges;
 pub mod run;

@@ -60,6 +60,9 @@ struct Flags {
     /// The ways to compare, as they are printed; default: all
     #[arg(long)]
     ways: Vec<String>,
+    /// Compare trusted runs with the limit of velocity Verlet too. Both differ by depths of springs where they are right
+    #[arg(long)]
+    laws: bool,
     /// Seconds of processor time to make a find smaller
     #[arg(long, default_value_t = 0)]
     smaller: u64,
@@ -88,7 +91,13 @@ fn main() -> ExitCode {
             say!("{} cannot be read", file.display());
             return ExitCode::from(2);
         };
-        let judged = judge(&text, |_, way| flags.wants(way), MOST_EVALUATIONS, &mut Chance::new(flags.seed, 0), |_| {});
+        let judged = judge(
+            &text,
+            (|_, way| flags.wants(way), flags.laws),
+            MOST_EVALUATIONS,
+            &mut Chance::new(flags.seed, 0),
+            |_| {},
+        );
         for (way, verdict) in &judged.verdicts {
             say!("{way}: {verdict}");
         }
@@ -133,16 +142,11 @@ fn child(flags: &Flags, number: u64) {
         say!("drawn\t{section}\t{all}\t{refused}");
     }
     let chance = || Chance::new(flags.seed ^ 0x5eed, number);
-    let judged = judge(
-        &drawn.text(),
-        |_, way| flags.wants(way),
-        MOST_EVALUATIONS,
-        &mut chance(),
-        |way| {
+    let judged =
+        judge(&drawn.text(), (|_, way| flags.wants(way), flags.laws), MOST_EVALUATIONS, &mut chance(), |way| {
             // The last line of a child that is ended.
             say!("at\t{way}");
-        },
-    );
+        });
     tell(&judged);
     let (Some(folder), Some(gravest)) = (&flags.out, judged.finds.iter().max_by_key(|find| find.kind)) else { return };
     let text = if flags.smaller > 0 { written_scene(&small(flags, &drawn, &judged)) } else { drawn.text() };
@@ -162,7 +166,7 @@ fn small(flags: &Flags, drawn: &Drawn, judged: &Judged) -> Vec<(String, jostle_a
     minimise(drawn.sections.clone(), Duration::from_secs(flags.smaller), |sections| {
         let judged = judge(
             &written_scene(sections),
-            |_, _| true,
+            (|_, _| true, flags.laws),
             MOST_EVALUATIONS,
             &mut Chance::new(flags.seed ^ 0x5eed, 0),
             |_| {},
@@ -205,6 +209,9 @@ fn hunt(flags: &Flags) -> std::io::Result<bool> {
         child.args(["-c", "ulimit -t \"$0\"; exec \"$@\"", &(flags.patience + flags.smaller).to_string()]).arg(&own);
         child.arg(format!("--child={number}")).arg(format!("--seed={}", flags.seed));
         child.arg(format!("--longest={:?}", flags.longest)).arg(format!("--smaller={}", flags.smaller));
+        if flags.laws {
+            child.arg("--laws");
+        }
         if let Some(out) = &flags.out {
             child.arg("--out").arg(out);
         }

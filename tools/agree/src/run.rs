@@ -44,13 +44,18 @@ pub enum Outcome {
 
 /// Runs a scene, for at most so many evaluations of all forces.
 pub fn run(text: &str, overrides: &Overrides, most: u64) -> Outcome {
+    run_with(text, overrides, most, Effort::Little)
+}
+
+/// The same with another effort for the estimate of its error.
+pub fn run_with(text: &str, overrides: &Overrides, most: u64, effort: Effort) -> Outcome {
     let source = Source::new("drawn.ron", text);
     let load = |overrides: &Overrides| Simulation::load_with(&source, overrides, |_| {});
     let mut simulation = match load(overrides) {
         Ok(simulation) => simulation,
         Err(errors) => return Outcome::Refused(errors.to_string()),
     };
-    let wanted = EstimateRequest { effort: Effort::Little, ..EstimateRequest::default() };
+    let wanted = EstimateRequest { effort, ..EstimateRequest::default() };
     watch(&mut simulation, wanted);
     let dt = simulation.clock().dt;
     let moments = (simulation.duration() / MOMENT).round() as u64;

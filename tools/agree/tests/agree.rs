@@ -35,7 +35,7 @@ fn fifty_scenes_of_chance_agree_in_all_ways() {
         let drawn = scene(&language, (SEED, number), LONGEST);
         // Each scene runs in the default way and in a third of the others.
         let ways = |index: usize, _: &Way| index == 0 || index as u64 % 3 == number % 3;
-        let judged = judge(&drawn.text(), ways, MOST_EVALUATIONS, &mut Chance::new(SEED, number), |_| {});
+        let judged = judge(&drawn.text(), (ways, false), MOST_EVALUATIONS, &mut Chance::new(SEED, number), |_| {});
         runs += judged.runs;
         statements.extend(judged.statements.iter().map(|(_, excess, _)| *excess));
         for find in &judged.finds {
