@@ -31,6 +31,7 @@ mod pushed_boxes;
 mod ran;
 mod reading_cost;
 mod releases;
+mod short_slides;
 mod soft_contacts;
 mod statements;
 mod stops_together;

@@ -203,6 +203,7 @@ impl Control {
         let reach = flow.reach();
         let (distance, speed) = self.sizes(reach, longest);
         flow.measures(distance, speed, &mut self.measures);
+        flow.measure_own(1.0, &mut self.measures);
         let times = rates.iter().zip(&self.measures).map(|(rate, size)| rate.abs() / size);
         let quickest = times.fold(0.0, f64::max);
         let probe = PROBE * if quickest * longest > 1.0 { 1.0 / quickest } else { longest };
@@ -222,6 +223,7 @@ impl Control {
         for _ in 0..PASSES {
             let (distance, speed) = self.sizes(reach, length);
             flow.measures(distance, speed, &mut self.measures);
+            flow.measure_own(1.0, &mut self.measures);
             let bends = rates.iter().zip(&after).zip(&self.measures);
             let bend = bends.map(|((before, after), size)| (after - before).abs() / (probe * size)).fold(0.0, f64::max);
             let guess = (BEND * allowed).min(MOST_BEND / self.allowance.shorter) / bend.sqrt();

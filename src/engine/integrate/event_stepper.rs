@@ -431,13 +431,14 @@ impl EventStepper {
         let end = tick.end;
         let mut flow = WorldFlow::new(tick);
         self.make_dense(&mut flow, &mut made);
-        let mut change = vec![0.0; flow.dimension()];
+        let (mut change, mut state) = (vec![0.0; flow.dimension()], Vec::new());
         self.method.dense((end - made.from) / made.length, &mut change);
-        let mut state = Vec::new();
         add(&self.state, &self.rest, &change, &mut state);
         flow.write(&state);
         flow.hold(end, &mut change, &mut state);
         flow.tick.show(end);
+        flow.read(&mut state);
+        flow.count_unbooked(&mut change);
         let mut booked = change.clone();
         if let Some(before) = &made.shown {
             booked.iter_mut().zip(&before.change).for_each(|(change, before)| *change -= before);

@@ -11,6 +11,8 @@ use crate::tick::Flow;
 const ACCOUNTS: usize = 7;
 /// Those that depend on no velocity if forces do not.
 const IMPULSES: usize = 3;
+/// The place of friction among accounts, counted from the end.
+const FRICTION: usize = IMPULSES + 2;
 
 /// How far bodies can get within a step.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -247,6 +249,12 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         }
         let impulses = self.dimension - IMPULSES;
         change[impulses..].iter_mut().zip([impulse.x, impulse.y, angular]).for_each(|(sum, more)| *sum += more);
+    }
+
+    /// Adds to the change of the accounts the friction that models book at the end of a step alone.
+    pub fn count_unbooked(&mut self, change: &mut [f64]) {
+        let friction = self.dimension - FRICTION;
+        self.tick.state.each_with_events(|model, state| change[friction] += model.unbooked(state));
     }
 
     /// Books the change of the accounts by a step.

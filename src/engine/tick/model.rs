@@ -278,8 +278,8 @@ pub trait Events {
     /// Model -> state. Default: a model without numbers has nothing to copy.
     fn read(&self, _: &mut [f64]) {}
 
-    /// The units of errors of its states, if they exceed the way of bodies. An integral grows while bodies are at rest.
-    /// All are zero before. Default: no change.
+    /// The units of errors of its states, if they exceed the way of bodies. An integral grows while bodies are at rest. An infinite
+    /// one asks for no accuracy. All are zero before. Default: no change.
     fn measures(&self, _: &mut [f64]) {}
 
     /// State -> model, before an evaluation. Default: likewise.
@@ -312,6 +312,12 @@ pub trait Events {
     /// Others have made the state, and the ledger takes its energy as it is. The model books no loss of its choice of
     /// modes. Default: no action.
     fn begin_account(&mut self, _: &State) {}
+
+    /// The loss in J to friction since the last [`Events::tidy`] that the model books there, and not as a rate. Asked in states inside a
+    /// step. Default: none.
+    fn unbooked(&mut self, _: &State) -> f64 {
+        0.0
+    }
 
     /// After a step was accepted: takes rounding out of what must not drift. Says whether it changed velocities.
     /// Default: nothing drifts.

@@ -30,7 +30,7 @@ impl View<'_> {
     }
 
     /// A velocity in m/s that is rounding at a contact. Its scale is the speed of the sides, and the speed that its spring would give.
-    fn rounding_of_velocity(&mut self, index: usize) -> f64 {
+    pub(super) fn rounding_of_velocity(&mut self, index: usize) -> f64 {
         let (geometry, bodies) = (self.look(index), self.bodies);
         let law = self.contact(index).1;
         let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
@@ -58,13 +58,11 @@ impl View<'_> {
             if law.exact {
                 contact.give(law, sliding > 0.0);
             } else {
-                contact.tangential.let_go(&law.tangential());
-                contact.tangential.held = 0.0_f64.copysign(sliding);
+                contact.tangential.come_loose(&law.tangential(), (true, false), sliding);
             }
         }
         if let Some((slider, law)) = roller.filter(|(slider, _)| turns && slider.grip == Grip::Hold) {
-            slider.let_go(&law);
-            slider.held = 0.0_f64.copysign(geometry.turning());
+            slider.come_loose(&law, (true, false), geometry.turning());
         }
     }
 }

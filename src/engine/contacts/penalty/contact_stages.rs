@@ -78,7 +78,7 @@ pub(super) fn take_rows(
                 if let Some((slider, rolling_law)) = roller
                     && slider.grip == Grip::Slide
                 {
-                    rolling_stages::slip(slider, &rolling_law, force);
+                    slider.slide(&rolling_law, force, true);
                     rolling_stages::push(slider, slider.sliding_force(&rolling_law, force), geometry, sink);
                 }
                 let sliding = contact.tangential.grip == Grip::Slide;

@@ -10,6 +10,7 @@
 //! it ([`crate::constraints::rest_solver`]).
 
 use super::indicators::SliderMotion;
+use super::normal::Mode;
 use super::switching::Base;
 use crate::constraints::rest_solver::{CoulombSpring, FrictionOutcome, SpringPhase};
 use serde::{Deserialize, Serialize};
@@ -90,8 +91,52 @@ impl Slider {
         law.friction_dynamic.copysign(self.held) * normal_force
     }
 
+    /// Slides against the force of a normal force. Below one that is held, the way draws the spring.
+    pub(super) fn slide(&mut self, law: &SliderLaw, normal_force: f64, is_held: bool) {
+        self.held = (law.friction_dynamic * normal_force).abs().copysign(self.held);
+        let drawn = self.held / law.stiffness;
+        self.elongation = if is_held { self.elongation.max(-drawn.abs()).min(drawn.abs()) } else { drawn };
+    }
+
+    /// Whether its elongation is state in stages of a step. It is while it sticks, and while a slide draws it.
+    pub(super) fn is_state(&self, mode: Mode) -> bool {
+        match self.grip {
+            Grip::Stick => mode != Mode::Open,
+            Grip::Slide => mode == Mode::Hold,
+            Grip::Slip | Grip::Hold => false,
+        }
+    }
+
+    /// The unit of errors of its elongation, beside those of ways: see [`crate::tick::Events::measures`]. A slide has its force without
+    /// its spring, so no error of the elongation changes the motion.
+    pub(super) fn measure(&self) -> f64 {
+        if self.grip == Grip::Slide { f64::INFINITY } else { 0.0 }
+    }
+
+    /// Follows its contact, whose sides move with `velocity`, and which comes loose or not. A slide that has not drawn its spring yet
+    /// sticks on it. One that has not only been tried at this moment has turned the spring to the side of its force.
+    pub(super) fn come_loose(&mut self, law: &SliderLaw, (is_loose, is_tried): (bool, bool), velocity: f64) {
+        match self.grip {
+            Grip::Hold if is_loose => {
+                self.let_go(law);
+            }
+            Grip::Slide if is_loose && self.slides_without_spring(law) => {
+                if !is_tried && velocity * self.held > 0.0 {
+                    self.elongation = self.elongation.abs().copysign(self.held);
+                }
+                if self.slides_without_spring(law) {
+                    self.grip = Grip::Stick;
+                }
+            }
+            _ => {}
+        }
+        if self.grip == Grip::Stick {
+            self.held = 0.0_f64.copysign(velocity);
+        }
+    }
+
     /// Whether it slides with a force that its spring is not drawn to.
-    fn slides_without_spring(&self, law: &SliderLaw) -> bool {
+    pub(super) fn slides_without_spring(&self, law: &SliderLaw) -> bool {
         self.grip == Grip::Slide && (law.stiffness * self.elongation - self.held).abs() > ROUNDING * self.held.abs()
     }
 

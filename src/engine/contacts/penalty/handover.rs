@@ -38,16 +38,21 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, mode: EvaluationMode, d
     view.contacts.rest.clear();
     if mode == EvaluationMode::Following {
         view.contacts.held.clear();
-        let slip = |slider: &mut Slider| {
-            if slider.grip == Grip::Slide {
+        // A slide below a held normal force goes on without its spring.
+        let slip = |slider: &mut Slider, law: &SliderLaw, mode: Mode| {
+            if slider.grip == Grip::Slide && !(mode == Mode::Hold && slider.slides_without_spring(law)) {
                 slider.grip = Grip::Slip;
             }
         };
         for index in 0..view.len() {
-            slip(&mut view.contact(index).0.tangential);
+            let geometry = view.look(index);
+            let (mut contact, law, roller) = view.whole(index, &geometry);
+            let mode = contact.mode;
+            slip(&mut contact.tangential, &law.tangential(), mode);
+            if let Some((slider, law)) = roller {
+                slip(slider, &law, mode);
+            }
         }
-        let rolling = view.rolling.as_deref_mut().into_iter();
-        rolling.flat_map(|rolling| rolling.atoms.iter_mut().chain(&mut rolling.surfaces)).for_each(slip);
         return;
     }
     view.contacts.held_before = Some(view.stored(|_| true));

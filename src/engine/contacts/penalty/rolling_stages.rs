@@ -30,7 +30,7 @@ impl RollingContacts {
 }
 
 fn is_state((contact, slider): &(Contact, &Slider)) -> bool {
-    contact.mode != Mode::Open && slider.grip == Grip::Stick
+    slider.is_state(contact.mode)
 }
 
 /// All rolling springs with their contacts.
@@ -48,17 +48,23 @@ pub(super) fn length(contacts: &PenaltyContacts, rolling: &RollingContacts) -> u
 
 /// Springs -> state.
 pub(super) fn read(contacts: &PenaltyContacts, rolling: &RollingContacts, state: &mut [f64]) {
-    let sticking = springs(contacts, rolling).filter(is_state);
-    state.iter_mut().zip(sticking).for_each(|(state, (_, slider))| *state = slider.elongation);
+    let own = springs(contacts, rolling).filter(is_state);
+    state.iter_mut().zip(own).for_each(|(state, (_, slider))| *state = slider.elongation);
+}
+
+/// The units of errors of the angles in the state.
+pub(super) fn measures(contacts: &PenaltyContacts, rolling: &RollingContacts, measures: &mut [f64]) {
+    let own = springs(contacts, rolling).filter(is_state);
+    measures.iter_mut().zip(own).for_each(|(measure, (_, slider))| *measure = slider.measure());
 }
 
 /// State -> springs.
 pub(super) fn write(contacts: &PenaltyContacts, rolling: &mut RollingContacts, state: &[f64]) {
     let RollingContacts { atoms, surfaces, .. } = rolling;
     let contacts = contacts.atoms.iter().chain(contacts.surfaces.iter());
-    let sticking = contacts.zip(atoms.iter_mut().chain(surfaces));
-    let sticking = sticking.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
-    state.iter().zip(sticking).for_each(|(state, (_, slider))| slider.elongation = *state);
+    let own = contacts.zip(atoms.iter_mut().chain(surfaces));
+    let own = own.filter(|(contact, slider)| is_state(&(*contact, &**slider)));
+    state.iter().zip(own).for_each(|(state, (_, slider))| slider.elongation = *state);
 }
 
 /// The rates of angles that are state.
@@ -73,8 +79,8 @@ pub(super) fn rates(
         let (a, b) = pair.bodies(bodies);
         bodies.spin[b] - a.map_or(0.0, |a| bodies.spin[a])
     }));
-    let sticking = springs(contacts, rolling).zip(turning).filter(|(spring, _)| is_state(spring));
-    rates.iter_mut().zip(sticking).for_each(|(rate, (_, turning))| *rate = turning);
+    let own = springs(contacts, rolling).zip(turning).filter(|(spring, _)| is_state(spring));
+    rates.iter_mut().zip(own).for_each(|(rate, (_, turning))| *rate = turning);
 }
 
 /// Signed torque per newton of normal force of a slipping spring under a held normal force.
@@ -97,17 +103,11 @@ pub(super) fn stage(
         }
         Grip::Slide if contact.mode == Mode::Hold => {}
         Grip::Slide => {
-            slip(slider, &law, contact.normal_force);
+            slider.slide(&law, contact.normal_force, false);
             push(slider, slider.sliding_force(&law, contact.normal_force), geometry, sink);
         }
         Grip::Stick | Grip::Slip => push(slider, slider.force(&law), geometry, sink),
     }
-}
-
-/// While it slips: the torque under a normal force.
-pub(super) fn slip(slider: &mut Slider, law: &SliderLaw, normal_force: f64) {
-    slider.held = (law.friction_dynamic * normal_force).abs().copysign(slider.held);
-    slider.elongation = slider.held / law.stiffness;
 }
 
 /// Lets the spring act with a torque, and books what slipping takes.
@@ -158,7 +158,7 @@ pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, geome
         What::RollingGive(positive) => {
             slider.grip = Grip::Slide;
             slider.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
-            slip(slider, &law, contact.normal_force);
+            slider.slide(&law, contact.normal_force, contact.mode == Mode::Hold);
         }
         What::RollingStop => slider.grip = if contact.mode == Mode::Hold { Grip::Hold } else { Grip::Stick },
         _ => {}
@@ -171,12 +171,7 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &Pa
     if contact.mode == Mode::Open {
         *slider = Slider::default();
     }
-    if slider.grip == Grip::Hold && contact.mode != Mode::Hold {
-        slider.let_go(&law);
-    }
-    if slider.grip == Grip::Stick {
-        slider.held = 0.0_f64.copysign(geometry.turning());
-    }
+    slider.come_loose(&law, (contact.mode != Mode::Hold, false), geometry.turning());
 }
 
 /// The preferred load of a rolling spring on side B, if the spring of the contact pulls with `pull` newtons.

@@ -139,14 +139,15 @@ impl View<'_> {
     /// A held contact goes on in a mode. Its springs are as drawn as `before`: a slide that was tried at this moment drew none.
     /// Friction that slid up to this moment slides on.
     pub(super) fn release(&mut self, index: usize, mode: Mode, mut before: [Option<Slider>; 2]) {
-        if self.contacts.stopped.contains(&(index as u32)) {
+        let has_stopped = self.contacts.stopped.contains(&(index as u32));
+        if has_stopped {
             before[0] = None;
         }
         let geometry = self.look(index);
         let (mut contact, law, roller) = self.whole(index, &geometry);
         contact.mode = mode;
         contact.tangential.undo_slide(before[0]);
-        contact.come_loose(law, &geometry);
+        contact.come_loose(law, &geometry, has_stopped);
         if let Some((slider, law)) = roller {
             slider.undo_slide(before[1]);
             rolling_stages::come_loose((slider, law), &contact, &geometry);

@@ -5,16 +5,13 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
-use super::coulomb::Grip;
+use super::coulomb::{Grip, ROUNDING};
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::switching::View;
 use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
-
-/// A share of velocities that counts as rounding.
-const ROUNDING: f64 = 1e-12;
 
 /// Sides stand that accelerate by at most this share of the acceleration by the spring alone. Forces that balance round so.
 const STANDS: f64 = 1e-9;
@@ -35,7 +32,6 @@ pub(super) fn is_still<N: NormalForce>(contact: &Contact, law: &PairLaw, geometr
 /// `error` m/s from zero. Friction that stops too early loses its spring, so it waits for its own event. The stop reaches contacts
 /// of the same bodies, and of those held by them.
 pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], error: f64) {
-    let bodies = view.bodies;
     let mut reached: Vec<usize> = named.iter().flat_map(|&index| view.movable(index as usize)).collect();
     let mut first = 0;
     while let Some(&body) = reached.get(first) {
@@ -44,12 +40,9 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
             if !view.movable(index).any(|other| other == body) {
                 continue;
             }
-            let geometry = view.look(index);
+            let (geometry, rounding) = (view.look(index), view.rounding_of_velocity(index));
             let (mut contact, law) = view.contact(index);
             let shares = law.shares();
-            // Sides that do not slide have the speed that the springs give back from this overlap as their scale.
-            let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
-            let rounding = ROUNDING * (geometry.speed(shares) + swing);
             let mut joined = false;
             if N::SET_VALUED && moves::<N>(&contact, law) && geometry.parting().abs() <= rounding.max(error) {
                 contact.mode = Mode::Hold;

@@ -94,14 +94,14 @@ impl View<'_> {
     }
 }
 
-/// Contacts whose tangential spring holds: its elongation is state.
+/// Contacts whose tangential spring has an elongation that is state.
 fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = Contact> {
     contacts.atoms.iter().chain(contacts.surfaces.iter()).filter(|contact| is_spring(contact, &contacts.laws))
 }
 
 fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
-    let sticks = contact.mode != Mode::Open && contact.tangential.grip == Grip::Stick;
-    sticks && laws.get(contact.law).tangential().acts()
+    let law = laws.get(contact.law);
+    contact.tangential.is_state(contact.mode) && law.tangential().acts() && !law.exact
 }
 
 /// The number of elongations in the state.
@@ -113,6 +113,13 @@ pub(super) fn length(contacts: &PenaltyContacts) -> usize {
 pub(super) fn read(contacts: &PenaltyContacts, state: &mut [f64]) {
     for (state, contact) in state.iter_mut().zip(springs(contacts)) {
         *state = contact.tangential.elongation;
+    }
+}
+
+/// The units of errors of the elongations in the state.
+pub(super) fn measures(contacts: &PenaltyContacts, measures: &mut [f64]) {
+    for (measure, contact) in measures.iter_mut().zip(springs(contacts)) {
+        *measure = contact.tangential.measure();
     }
 }
 
@@ -186,7 +193,7 @@ impl View<'_> {
             let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
             let base = Base::at_touch::<N>(law, &geometry, bodies);
             contact.switch::<N>(law, what, &geometry, base);
-            contact.come_loose(law, &geometry);
+            contact.come_loose(law, &geometry, false);
             let (stands, normal_force) =
                 (matches!(what, What::Turn) && contact.mode == Mode::Hold, contact.normal_force);
             if stands {
@@ -509,15 +516,11 @@ impl Contact {
     }
 
     /// Adapts the spring to a normal mode that has changed. When the normal is released, the spring replaces the hold.
-    /// A holding spring remembers its direction.
-    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry) {
-        let slider = &mut self.tangential;
-        if slider.grip == Grip::Hold && !law.exact && self.mode != Mode::Hold {
-            slider.let_go(&law.tangential());
-        }
-        if slider.grip == Grip::Stick {
-            slider.held = 0.0_f64.copysign(geometry.sliding(law.shares()));
-        }
+    /// A holding spring remembers its direction. `is_tried`: it slides only for a try at this moment.
+    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry, is_tried: bool) {
+        // Friction without a spring holds beside any normal force.
+        let is_loose = !law.exact && self.mode != Mode::Hold;
+        self.tangential.come_loose(&law.tangential(), (is_loose, is_tried), geometry.sliding(law.shares()));
     }
 
     /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
@@ -527,9 +530,10 @@ impl Contact {
 
     /// While it slips: the force along the surface under a normal force, in the direction it has.
     pub(super) fn slide(&mut self, law: &PairLaw, normal_force: f64) {
-        let slider = &mut self.tangential;
-        slider.held = (law.friction_dynamic * normal_force).abs().copysign(slider.held);
-        slider.elongation = if law.exact { 0.0 } else { slider.held / law.tangential_stiffness };
+        self.tangential.slide(&law.tangential(), normal_force, self.mode == Mode::Hold);
+        if law.exact {
+            self.tangential.elongation = 0.0;
+        }
     }
 
     /// Modes that follow from the state itself.

@@ -56,6 +56,15 @@ impl<N: NormalForce> Events for Contacts<N> {
         }
     }
 
+    fn measures(&self, numbers: &mut [f64]) {
+        let PenaltyState { contacts, rolling } = &self.own;
+        let (elongations, angles) = numbers.split_at_mut(switching::length(contacts));
+        switching::measures(contacts, elongations);
+        if let Some(rolling) = rolling {
+            rolling_stages::measures(contacts, rolling, angles);
+        }
+    }
+
     fn write(&mut self, numbers: &[f64]) {
         let PenaltyState { contacts, rolling } = &mut self.own;
         let (elongations, angles) = numbers.split_at(switching::length(contacts));
@@ -109,6 +118,13 @@ impl<N: NormalForce> Events for Contacts<N> {
             view.contacts.held_before = None;
             view.contacts.slid = view.sliding_energy();
         }
+    }
+
+    fn unbooked(&mut self, state: &State) -> f64 {
+        if self.own.contacts.is_idle() {
+            return 0.0;
+        }
+        view(&mut self.own, state).map_or(0.0, |mut view| view.contacts.slid - view.sliding_energy())
     }
 
     fn tidy(&mut self, state: &mut State) -> bool {

@@ -64,6 +64,7 @@ fn look(flow: &mut WorldFlow, made: &Made, moment: f64, change: &[f64]) {
     if let Some(before) = &made.shown {
         booked.iter_mut().zip(&before.change).for_each(|(change, before)| *change -= before);
     }
+    flow.count_unbooked(&mut booked);
     let ledger = flow.tick.state().ledger().clone();
     flow.book(&booked);
     flow.tick.look(moment);

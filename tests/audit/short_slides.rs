@@ -1,0 +1,82 @@
+//! Law: a slide draws the springs of its contacts on the way, up to `mu N / k_t` each. So a box that slides by `s` from rest loses
+//! `mu m g s` less what its springs hold, the sum of `k_t s_i^2 / 2` with `s_i` the lesser of `s` and `mu N_i / k_t`.
+//!
+//! A push `F > mu_s m g` on the centre of mass for a time `t` makes the way `v^2/2 (1/a + 1/b)`, with `v = a t`, `a = F/m - mu_d g` and
+//! `b = mu_d g`. The moment of friction loads the front edge: `N = m g/2 (1 +- 2 mu_d h/width)`. The height `h` of the centre of mass is
+//! less than half by the depth at rest, `m g/(2 k)`.
+
+use super::ran::end;
+use jostle::scene::Source;
+use jostle::simulation::Overrides;
+use jostle::{Simulation, SimulationExt};
+
+const G: f64 = 9.81;
+const MASS: f64 = 3.0;
+const WIDTH: f64 = 0.4;
+const HEIGHT: f64 = 0.2;
+const STATIC: f64 = 0.5;
+const DYNAMIC: f64 = 0.4;
+/// In N/m, along the surface. The tangential springs are as stiff as the normal ones.
+const STIFFNESS: f64 = 3e4;
+/// The greatest error of an energy in J, of some 1e-3 J. The first tolerance allows about so much.
+const ERROR: f64 = 1e-8;
+
+/// A box on the floor that is pushed with `push` newtons from 0.01 s until `to` seconds.
+fn scene(clock: &str, push: f64, to: f64) -> String {
+    format!(
+        "Scene(format: 1, clock: (duration: 0.1, {clock}), gravity: (0, -{G}), contacts: Penalty(tangential: Spring(ratio: 1)),
+            film: (fps: 500),
+            materials: {{ \"m\": (stiffness: {STIFFNESS:?}, friction: (static: {STATIC}, dynamic: {DYNAMIC}), restitution: 0.1) }},
+            walls: [(name: \"floor\", left: (1, 0), right: (-1, 0), material: \"m\")],
+            bodies: [(name: \"box\", at: (0, {:?}), mass: {MASS:?}, material: \"m\",
+                      shape: Rectangle(width: {WIDTH}, height: {HEIGHT}))],
+            forces: [Thrust(of: \"box\", force: ({push:?}, 0), from: 0.01, to: {to:?})])",
+        0.5 * HEIGHT,
+    )
+}
+
+#[test]
+fn slides_of_any_length_draw_springs_by_their_way() {
+    let load = 0.5 * MASS * G;
+    let lever = 2.0 * DYNAMIC * (0.5 * HEIGHT - load / STIFFNESS) / WIDTH;
+    let loads = [1.0, -1.0].map(|side| load * (1.0 + side * lever));
+    let most = loads.map(|load| DYNAMIC * load / STIFFNESS);
+    for drawn in [0.2, 0.9, 1.1, 4.0] {
+        // Of the way that draws the spring with the lesser load.
+        let way = drawn * most[1];
+        let (push, b) = (1.2 * STATIC * MASS * G, DYNAMIC * G);
+        let a = push / MASS - b;
+        let lasts = (2.0 * way / (a * a * (1.0 / a + 1.0 / b))).sqrt();
+        let held: f64 = most.iter().map(|most| 0.5 * STIFFNESS * way.min(*most).powi(2)).sum();
+        for clock in [
+            "tolerance: 1e-4",
+            "tolerance: 1e-7",
+            "method: Reference",
+            "method: Dop853, tick: 1e-3",
+            "method: RungeKutta4, tick: 1e-4",
+        ] {
+            let scene = scene(clock, push, 0.01 + lasts);
+            let ran = end(&scene).expect("a run to its end");
+            let place = ran.seen[0].1[0].place.x;
+            assert!((place - way).abs() < 1e-4 * way, "{drawn} {clock}: {place:e} for {way:e}");
+            let lost = DYNAMIC * MASS * G * way - held;
+            let friction = ran.card.energy.friction;
+            assert!((friction - lost).abs() < ERROR, "{drawn} {clock}: {friction:e} lost for {lost:e}");
+        }
+    }
+}
+
+/// Steps of a slide are longer than ticks, and the account closes at each tick.
+#[test]
+fn energy_closes_at_each_look_into_a_slide() {
+    let source = Source::new("slide.ron", scene("tolerance: 1e-4", 1.2 * STATIC * MASS * G, 0.05));
+    let mut simulation = Simulation::load_with(&source, &Overrides::default(), |_| {}).expect("a correct scene");
+    let mut most = 0.0_f64;
+    for tick in 1..=simulation.ticks() {
+        simulation.run_to_tick(tick).expect("numbers stay finite");
+        most = most.max(simulation.card().energy.residual.abs());
+    }
+    let steps = simulation.state().steps().accepted;
+    assert!(steps < simulation.ticks(), "{steps} steps");
+    assert!(most < 1e-12, "{most:e} J are missing");
+}
