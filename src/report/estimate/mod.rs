@@ -234,8 +234,8 @@ pub fn estimate(simulation: &mut Simulation, wanted: EstimateRequest, scene: &Re
     if known.is_none() && wanted.effort != Effort::None && simulation.clock().ticks > 0 {
         discretisation(simulation, &run, wanted.effort, scene, &mut found)?;
     }
-    other_kind::check(simulation, &run, wanted.effort, scene, &mut found)?;
     wedged::add(simulation, &run, &mut found);
+    other_kind::check(simulation, &run, wanted.effort, scene, &mut found)?;
     if wanted.rounding {
         rounding::estimate(simulation, &run, scene, &mut found)?;
     }

@@ -5,8 +5,8 @@
 //! Every run from tick to tick has a twin with located events (`twins.rs`).
 //!
 //! A run with located events is far more exact than velocity Verlet, whose error must not become its own. Two runs
-//! from tick to tick tell that error by their difference. Only a larger distance counts, and only if a run with finer ticks
-//! confirms it.
+//! from tick to tick tell that error by their difference. Only a larger distance counts. Ever finer ticks confirm it, or show one
+//! that the error hid.
 
 use jostle_engine::Simulation;
 use jostle_engine::integrate::{ChosenMethod, Detail, EventTiming, StepPace};
@@ -25,10 +25,16 @@ const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 /// Runs with a tick and with half of it may meet events at like phases. Their difference is then too small, seldom by
 /// more than this factor.
 const LIKE_PHASES: f64 = 10.0;
-/// Beyond this share of the motion, the runs from tick to tick are no measure.
+/// Beyond this share of the motion the runs from tick to tick are no measure. The same holds for the share of an impulse that edges
+/// between ticks cost.
 const USELESS: f64 = 0.1;
-/// The finest run has so many ticks in one of the coarsest. An error that falls with the tick then falls below the bound.
-const FINEST: u32 = 8;
+/// Each finer run has so many times the ticks of the one before. An error that falls with the tick then falls below the bound in two
+/// such steps.
+const FINER: u32 = 4;
+/// Runs of so many ticks in one of the coarsest may take any time, if the user wants all runs.
+const FINE: u32 = 8;
+/// The finest run, which is made if little work suffices.
+const FINEST: u32 = 128;
 /// Distances of less than this share of the motion are rounding that contacts magnify.
 const ROUNDING: f64 = 1e-9;
 
@@ -39,8 +45,10 @@ pub struct Elsewhere {
     pub since: f64,
     /// The greatest distance of places in m.
     pub distance: f64,
-    /// The same as a share of how far bodies go. Infinite if the runs were compared over a part of the time.
+    /// The same as a share of how far bodies go.
     pub share: f64,
+    /// The time in s until which the runs were compared, if not to the end.
+    pub until: Option<f64>,
     /// The tick of velocity Verlet in s.
     pub tick: f64,
 }
@@ -76,12 +84,15 @@ struct ByTicks<'a> {
     part: f64,
     /// The tick of the first run that ends it.
     until: u64,
+    /// Ticks of the coarsest in one of the first.
+    coarse: u32,
 }
 
 impl ByTicks<'_> {
-    /// Whether so many ticks in one of the first run need little work.
-    fn affords(&self, ticks: u32) -> bool {
-        self.part == 1.0 || work::affordable(self.simulation, self.work * f64::from(ticks)) >= self.part
+    /// Whether so many ticks in one of the first run need little work, or any work is allowed.
+    fn affords(&self, ticks: u32, patient: bool) -> bool {
+        let any = patient && ticks <= FINE * self.coarse;
+        any || work::affordable(self.simulation, self.work * f64::from(ticks)) >= self.part
     }
 
     /// A run with so many ticks in one of the first. `None`: some laws cannot go from tick to tick, it takes long, or it fails.
@@ -120,28 +131,31 @@ pub(super) fn check(
     let Some(fastest) = state.stability().fastest_foreseen().filter(|_| carried(simulation)) else { return Ok(()) };
     let tick = std::f64::consts::PI / (TICKS_PER_HALF_PERIOD * fastest.angular_frequency);
     let coarse = (simulation.clock().dt / tick).ceil().clamp(1.0, f64::from(u32::MAX / (2 * FINEST))) as u32;
-    let (fine, finest) = (2 * coarse, FINEST * coarse);
+    let mut times = 2 * coarse;
     let work = ticks as f64 / (state.evaluation().count.max(1) as f64);
     let patient = effort == Effort::Full;
-    let part = if patient { 1.0 } else { work::affordable(simulation, f64::from(coarse + fine) * work) };
+    let part = if patient { 1.0 } else { work::affordable(simulation, f64::from(coarse + times) * work) };
     let until = (part * ticks as f64) as u64;
     if !moments(simulation).iter().any(|tick| *tick <= until) {
         return Ok(());
     }
-    let by_ticks = ByTicks { simulation, scene, work, part, until };
+    let by_ticks = ByTicks { simulation, scene, work, part, until, coarse };
     let Some(first) = by_ticks.run(coarse, patient)? else { return Ok(()) };
-    let Some(second) = by_ticks.run(fine, patient)? else { return Ok(()) };
+    let Some(second) = by_ticks.run(times, patient)? else { return Ok(()) };
+    let mut runs = vec![first, second];
     let stated = found.estimate.and_then(|error| error.position.discretisation).unwrap_or_default();
-    let Some(mut departure) = departure(run, &first, &second, stated) else { return Ok(()) };
-    let mut times = fine;
-    // A fault of ticks that are too coarse falls away with finer ones.
-    if by_ticks.affords(finest)
-        && let Some(third) = by_ticks.run(finest, patient)?
-    {
-        let Some(finer) = self::departure(run, &second, &third, stated) else { return Ok(()) };
-        (departure, times) = (finer, finest);
+    let mut seen = departure(run, &runs, stated);
+    // A fault of ticks that are too coarse falls away with finer ones. A departure that only finer ticks show is to be seen twice.
+    let mut is_confirmed = false;
+    while !is_confirmed && times < FINEST * coarse && by_ticks.affords(FINER * times, patient) {
+        let Some(finer) = by_ticks.run(FINER * times, patient)? else { break };
+        runs.push(finer);
+        times *= FINER;
+        let before = std::mem::replace(&mut seen, departure(run, &runs, stated));
+        is_confirmed = before.is_some() && seen.is_some();
     }
-    let Departure { since, distance, speed } = departure;
+    let seen = seen.filter(|_| is_confirmed || runs.len() == 2);
+    let Some(Departure { since, distance, speed }) = seen else { return Ok(()) };
     let tick = simulation.clock().dt / f64::from(times);
     found.notes.push(format!(
         "velocity Verlet with a tick of {} s goes elsewhere from t = {} s on, by up to {} m: more than the errors of both",
@@ -149,18 +163,20 @@ pub(super) fn check(
         number(since),
         rough(distance)
     ));
-    let share = if until == ticks { distance / run.sizes().0 } else { f64::INFINITY };
-    found.elsewhere = Some(Elsewhere { since, distance, share, tick });
+    let compared = (until < ticks).then(|| until as f64 * simulation.clock().dt);
+    found.elsewhere = Some(Elsewhere { since, distance, share: distance / run.sizes().0, until: compared, tick });
     found.raise((distance, speed), run.sizes().0, || {
         format!("Velocity Verlet with a tick of {} s goes elsewhere by as much", number(tick))
     });
     Ok(())
 }
 
-/// Whether a run from tick to tick did otherwise than its scene asks.
+/// Whether a run from tick to tick did otherwise than its scene asks, by more than its error tells. Edges between ticks cost a share
+/// of an impulse that falls with the tick, as other errors do.
 fn departs(simulation: &Simulation) -> bool {
     let state = simulation.resource::<State>();
-    state.models().any(|model| !model.departures(state, EvaluationMode::Following).is_empty())
+    let all = |model: &dyn Model| model.departures(state, EvaluationMode::Following);
+    state.models().flat_map(all).any(|departure| departure.share > USELESS)
 }
 
 /// How far two runs are from each other.
@@ -173,13 +189,23 @@ struct Departure {
     speed: f64,
 }
 
-/// The departure of the finer of two runs from tick to tick. `None`: it goes no farther than errors explain.
-fn departure(run: &Trajectory, coarse: &Trajectory, fine: &Trajectory, stated: f64) -> Option<Departure> {
-    let motion = run.sizes().0.max(fine.sizes().0);
+/// The departure of the finest of some runs from tick to tick. Each has more ticks than the one before. `None`: it goes no farther than
+/// errors explain.
+fn departure(run: &Trajectory, by_ticks: &[Trajectory], stated: f64) -> Option<Departure> {
+    let finest = by_ticks.last()?;
+    let motion = run.sizes().0.max(finest.sizes().0);
+    let mut errors = vec![0.0_f64; run.errors(finest).count()];
+    // One difference may be small by chance. Those before were larger by the factor of ticks.
+    for (number, pair) in by_ticks.windows(2).rev().enumerate() {
+        let scale = f64::from(FINER).powi(number as i32);
+        for (error, (_, other, _)) in errors.iter_mut().zip(pair[0].errors(&pair[1])) {
+            *error = if other.is_nan() { f64::INFINITY } else { error.max(other / scale) };
+        }
+    }
     let (mut own, mut found) = (0.0_f64, None::<Departure>);
-    for ((since, far, fast), (_, other, _)) in run.errors(fine).zip(coarse.errors(fine)) {
-        own = own.max(other);
-        if own.is_nan() || own > USELESS * motion {
+    for ((since, far, fast), error) in run.errors(finest).zip(errors) {
+        own = own.max(error);
+        if own > USELESS * motion {
             break;
         }
         match &mut found {

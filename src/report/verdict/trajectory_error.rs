@@ -92,19 +92,25 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
 }
 
 /// Runs of the other kind contradict the run: at most one of both is right. The stated error counts their distance. So one that is
-/// small enough for the user is no cause for doubt.
+/// small enough for the user is no cause for doubt, as far as they were compared.
 pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
     let elsewhere = evidence.world.get_resource::<EstimatedError>()?.elsewhere?;
-    if elsewhere.share <= evidence.card.tolerance().unwrap_or(CONTRADICTS) {
-        return None;
-    }
-    let what = format!(
-        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m. At most one of these two runs is right",
+    let small = elsewhere.share <= evidence.card.tolerance().unwrap_or(CONTRADICTS);
+    let goes = format!(
+        "velocity Verlet with a tick of {} s goes elsewhere from {} on, by up to {} m",
         number(elsewhere.tick),
         at(elsewhere.since),
         rough(elsewhere.distance)
     );
-    Some(Cause { trust: Trust::ButNot(VerdictPart::Places), what, remedy: None })
+    let (part, what, remedy) = match (small, elsewhere.until) {
+        (true, None) => return None,
+        (true, Some(until)) => {
+            let remedy = "`--estimate`, which compares the whole run".to_owned();
+            (VerdictPart::UnknownAfter(until), format!("{goes} so far, and was not run on"), Some(remedy))
+        }
+        (false, _) => (VerdictPart::Places, format!("{goes}. At most one of these two runs is right"), None),
+    };
+    Some(Cause { trust: Trust::ButNot(part), what, remedy })
 }
 
 /// Bodies rest that go elsewhere in a finer run.
