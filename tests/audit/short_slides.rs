@@ -18,7 +18,7 @@ const STATIC: f64 = 0.5;
 const DYNAMIC: f64 = 0.4;
 /// In N/m, along the surface. The tangential springs are as stiff as the normal ones.
 const STIFFNESS: f64 = 3e4;
-/// The greatest error of an energy in J, of some 1e-3 J. The first tolerance allows about so much.
+/// The greatest error of an energy in J. Energies are some 1e-3 J, of which the first tolerance allows ten times as much.
 const ERROR: f64 = 1e-8;
 
 /// A box on the floor that is pushed with `push` newtons from 0.01 s until `to` seconds.
@@ -78,5 +78,6 @@ fn energy_closes_at_each_look_into_a_slide() {
     }
     let steps = simulation.state().steps().accepted;
     assert!(steps < simulation.ticks(), "{steps} steps");
+    // Some thousand sums of 3 J round.
     assert!(most < 1e-12, "{most:e} J are missing");
 }

@@ -6,6 +6,7 @@
 //! Tolerance: the way that the box goes in two ticks of the reference. The box that falls on its side agrees to the coarsest tolerance
 //! of its runs. Not tested: boxes that land, from tick to tick.
 
+use super::ran::demand_agreement;
 use glam::DVec2;
 use jostle::Simulation;
 use jostle::scene::Source;
@@ -80,5 +81,35 @@ fn a_slide_that_ends_beyond_the_cone_goes_on_the_other_way() {
     for overrides in [tolerance(COARSEST), steps("RungeKutta4", 1e-4), steps("Dop853", 1e-3)] {
         let (place, _) = end(text, overrides.clone());
         assert!(place.distance(exact) < COARSEST, "{overrides:?}: {place} instead of {exact}");
+    }
+}
+
+/// A push that swings takes a box along its belt and back. Each slide stops and turns round in a state that rounding would decide: the
+/// contact that is let go then keeps the spring that the slide before has drawn. Runs agree within three times what they state.
+#[test]
+fn slides_that_turn_round_on_a_belt_lead_to_one_place() {
+    let clocks = [
+        ", tolerance: 1e-4",
+        ", tolerance: 1e-5",
+        ", tolerance: 1e-7",
+        ", method: Reference",
+        ", method: Dop853, tick: 1e-3",
+    ];
+    for (duration, speed, push, frequency, friction) in [
+        (1.5, -0.3, 9.0, 2.0, 0.5),
+        (0.45, -0.3, 9.0, 2.0, 0.5),
+        (1.5, 0.25, 12.0, 1.3, 0.4),
+        (1.5, -0.2, 9.0, 2.0, 0.5),
+    ] {
+        demand_agreement(&format!("{duration} s, {speed} m/s, {push} N"), &clocks, 3, |clock| {
+            format!(
+                "Scene(format: 1, clock: (duration: {duration:?}{clock}), gravity: (0, -9.81),
+                    materials: {{ \"m\": (stiffness: 1e5, friction: {friction:?}, restitution: 0.2) }},
+                    walls: [(name: \"belt\", left: (1, 0), right: (0, 0), material: \"m\", surface_velocity: ({speed:?}, 0))],
+                    bodies: [(name: \"b\", at: (0, 0.1), mass: 1, material: \"m\",
+                              shape: Rectangle(width: 0.3, height: 0.2, rounding: 0.01))],
+                    forces: [Drive(of: \"b\", force: ({push:?}, 0), course: Sine(frequency: {frequency:?}))])"
+            )
+        });
     }
 }

@@ -32,9 +32,9 @@ const USELESS: f64 = 0.1;
 /// such steps.
 const FINER: u32 = 4;
 /// Runs of so many ticks in one of the coarsest may take any time, if the user wants all runs.
-const FINE: u32 = 8;
-/// The finest run, which is made if little work suffices.
-const FINEST: u32 = 128;
+const FINE: u32 = 2 * FINER;
+/// The finest run, if little work suffices. The first pair may hide a departure, and two more are to show it.
+const FINEST: u32 = 2 * FINER * FINER * FINER;
 /// Distances of less than this share of the motion are rounding that contacts magnify.
 const ROUNDING: f64 = 1e-9;
 

@@ -1,7 +1,7 @@
 //! Contacts that are held while velocities jump, as a rope becomes taut or a limit is reached. A spring gives no impulse, so the jump
 //! goes past it. A contact whose sides move afterwards comes loose, or its hold would take that motion away.
 
-use super::coulomb::{Grip, ROUNDING};
+use super::coulomb::{Grip, Loosening};
 use super::normal::Mode;
 use super::switching::View;
 use crate::contacts::geometry::PairGeometry;
@@ -29,14 +29,6 @@ impl View<'_> {
         }
     }
 
-    /// A velocity in m/s that is rounding at a contact. Its scale is the speed of the sides, and the speed that its spring would give.
-    pub(super) fn rounding_of_velocity(&mut self, index: usize) -> f64 {
-        let (geometry, bodies) = (self.look(index), self.bodies);
-        let law = self.contact(index).1;
-        let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
-        ROUNDING * (geometry.speed(law.shares()) + swing)
-    }
-
     fn moves_though_held(&mut self, index: usize) -> bool {
         let (geometry, rounding) = (self.look(index), self.rounding_of_velocity(index));
         let turns = turns(&geometry, rounding);
@@ -58,11 +50,11 @@ impl View<'_> {
             if law.exact {
                 contact.give(law, sliding > 0.0);
             } else {
-                contact.tangential.come_loose(&law.tangential(), (true, false), sliding);
+                contact.tangential.come_loose(&law.tangential(), Loosening::Moving, sliding);
             }
         }
         if let Some((slider, law)) = roller.filter(|(slider, _)| turns && slider.grip == Grip::Hold) {
-            slider.come_loose(&law, (true, false), geometry.turning());
+            slider.come_loose(&law, Loosening::Moving, geometry.turning());
         }
     }
 }

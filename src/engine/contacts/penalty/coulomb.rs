@@ -40,6 +40,17 @@ pub enum Grip {
     Slide,
 }
 
+/// How the normal force above a spring changes.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Loosening {
+    /// It stays held or not, as it was.
+    None,
+    /// Its hold ends. A slide has moved the sides.
+    Moving,
+    /// Its hold ends. A slide was only tried at this moment.
+    Tried,
+}
+
 /// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
 /// coefficients lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -113,15 +124,16 @@ impl Slider {
         if self.grip == Grip::Slide { f64::INFINITY } else { 0.0 }
     }
 
-    /// Follows its contact, whose sides move with `velocity`, and which comes loose or not. A slide that has not drawn its spring yet
-    /// sticks on it. One that has not only been tried at this moment has turned the spring to the side of its force.
-    pub(super) fn come_loose(&mut self, law: &SliderLaw, (is_loose, is_tried): (bool, bool), velocity: f64) {
+    /// Follows its contact, whose sides move with `velocity`. A slide that has not drawn its spring yet sticks on it. One that moved has
+    /// turned the spring to the side of its force.
+    pub(super) fn come_loose(&mut self, law: &SliderLaw, loosening: Loosening, velocity: f64) {
+        let is_loose = loosening != Loosening::None;
         match self.grip {
             Grip::Hold if is_loose => {
                 self.let_go(law);
             }
             Grip::Slide if is_loose && self.slides_without_spring(law) => {
-                if !is_tried && velocity * self.held > 0.0 {
+                if loosening == Loosening::Moving && velocity * self.held > 0.0 {
                     self.elongation = self.elongation.abs().copysign(self.held);
                 }
                 if self.slides_without_spring(law) {

@@ -26,6 +26,16 @@ pub(super) fn is_still<N: NormalForce>(contact: &Contact, law: &PairLaw, geometr
     moves::<N>(contact, law) && geometry.parting().abs() <= ROUNDING * geometry.speed(law.shares())
 }
 
+impl View<'_> {
+    /// A velocity in m/s that is rounding at a contact. Its scale is the speed of the sides, and the speed that its spring would give.
+    pub(super) fn rounding_of_velocity(&mut self, index: usize) -> f64 {
+        let (geometry, bodies) = (self.look(index), self.bodies);
+        let law = self.contact(index).1;
+        let swing = geometry.overlap * (law.stiffness * geometry.approach(bodies).mobility).sqrt();
+        ROUNDING * (geometry.speed(law.shares()) + swing)
+    }
+}
+
 /// Contacts stop with those of `named`, which an event has stopped, if they have no velocity left. That may be along the normal or
 /// along the surface. A body that tilts between two others stops on all of them at once. One that pivots stops in all directions.
 /// Rounding decides which of them the event names. So does the error of the step: among normals that turn, it tells no velocity below
