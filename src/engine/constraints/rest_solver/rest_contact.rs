@@ -79,6 +79,14 @@ pub enum FrictionOutcome {
     Lands,
     /// The contact rests on, and its spring follows the motion. A spring that slips has the limit that follows from the normal force.
     Stays,
+    /// It slides with this force, and its contact moves. A hold ends, and its spring follows the motion. A spring that was not drawn to
+    /// that hold, or that braked, begins on the side of this force.
+    TurnsRound {
+        /// In newtons.
+        force: f64,
+        /// Whether the hold braked a slide with its greatest force.
+        braked: bool,
+    },
     /// Its spring follows the motion.
     Follows,
 }
@@ -90,6 +98,10 @@ pub enum ContactOutcome {
     Moves {
         /// Whether the normal force is at its upper bound: the contact approaches.
         approaches: bool,
+        /// Friction along the tangent.
+        tangential: FrictionOutcome,
+        /// Friction against rolling.
+        rolling: FrictionOutcome,
     },
     /// It rests along its normal.
     Rests {

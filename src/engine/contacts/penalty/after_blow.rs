@@ -1,7 +1,7 @@
 //! Contacts that are held while velocities jump, as a rope becomes taut or a limit is reached. A spring gives no impulse, so the jump
 //! goes past it. A contact whose sides move afterwards comes loose, or its hold would take that motion away.
 
-use super::coulomb::{Grip, Loosening};
+use super::coulomb::Grip;
 use super::normal::Mode;
 use super::switching::View;
 use crate::contacts::geometry::PairGeometry;
@@ -50,11 +50,11 @@ impl View<'_> {
             if law.exact {
                 contact.give(law, sliding > 0.0);
             } else {
-                contact.tangential.come_loose(&law.tangential(), Loosening::Moving, sliding);
+                contact.tangential.come_loose(&law.tangential(), true, sliding);
             }
         }
         if let Some((slider, law)) = roller.filter(|(slider, _)| turns && slider.grip == Grip::Hold) {
-            slider.come_loose(&law, Loosening::Moving, geometry.turning());
+            slider.come_loose(&law, true, geometry.turning());
         }
     }
 }

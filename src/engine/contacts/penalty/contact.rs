@@ -37,12 +37,13 @@ impl Contact {
         Self { law, ..Self::default() }
     }
 
-    /// Chooses the mode for a pair that is not to be held. Returns the mode before, if that changed anything.
+    /// Chooses the mode for a pair that is not to be held; `tangential`: what friction does. Returns the mode before, if that changed anything.
     #[inline]
     pub fn choose_mode<N: NormalForce>(
         &mut self,
         law: &PairLaw,
         approach: Approach,
+        tangential: FrictionOutcome,
         losses: &mut Losses,
     ) -> Option<Self> {
         let chosen = N::chosen(self.mode, approach.parting);
@@ -52,7 +53,7 @@ impl Contact {
         let before = *self;
         self.mode = chosen;
         self.normal_force = N::force(law, chosen.sign(), self.overlap, approach);
-        self.take_on(law, FrictionOutcome::Follows, losses);
+        self.take_on(law, tangential, losses);
         Some(before)
     }
 

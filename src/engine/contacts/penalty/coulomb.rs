@@ -40,17 +40,6 @@ pub enum Grip {
     Slide,
 }
 
-/// How the normal force above a spring changes.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Loosening {
-    /// It stays held or not, as it was.
-    None,
-    /// Its hold ends. A slide has moved the sides.
-    Moving,
-    /// Its hold ends. A slide was only tried at this moment.
-    Tried,
-}
-
 /// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
 /// coefficients lengths.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
@@ -124,18 +113,15 @@ impl Slider {
         if self.grip == Grip::Slide { f64::INFINITY } else { 0.0 }
     }
 
-    /// Follows its contact, whose sides move with `velocity`. A slide that has not drawn its spring yet sticks on it. One that moved has
-    /// turned the spring to the side of its force.
-    pub(super) fn come_loose(&mut self, law: &SliderLaw, loosening: Loosening, velocity: f64) {
-        let is_loose = loosening != Loosening::None;
+    /// Follows its contact, whose sides move with `velocity`. A slide that has not drawn its spring yet turns it to the side of its
+    /// force. It sticks then.
+    pub(super) fn come_loose(&mut self, law: &SliderLaw, is_loose: bool, velocity: f64) {
         match self.grip {
             Grip::Hold if is_loose => {
                 self.let_go(law);
             }
             Grip::Slide if is_loose && self.slides_without_spring(law) => {
-                if loosening == Loosening::Moving && velocity * self.held > 0.0 {
-                    self.elongation = self.elongation.abs().copysign(self.held);
-                }
+                self.elongation = self.elongation.abs().copysign(self.held);
                 if self.slides_without_spring(law) {
                     self.grip = Grip::Stick;
                 }
@@ -149,7 +135,17 @@ impl Slider {
 
     /// Whether it slides with a force that its spring is not drawn to.
     pub(super) fn slides_without_spring(&self, law: &SliderLaw) -> bool {
-        self.grip == Grip::Slide && (law.stiffness * self.elongation - self.held).abs() > ROUNDING * self.held.abs()
+        self.grip == Grip::Slide && !self.is_drawn(law)
+    }
+
+    /// Whether it holds with a force that its spring is not drawn to.
+    fn holds_without_spring(&self, law: &SliderLaw) -> bool {
+        self.grip == Grip::Hold && !self.is_drawn(law)
+    }
+
+    /// Whether its spring is drawn to the force with which it holds or slides.
+    fn is_drawn(&self, law: &SliderLaw) -> bool {
+        (law.stiffness * self.elongation - self.held).abs() <= ROUNDING * self.held.abs()
     }
 
     /// The spring as the search for rest sees it.
@@ -340,9 +336,16 @@ impl Slider {
                 }
                 before - self.energy(law)
             }
-            FrictionOutcome::Follows | FrictionOutcome::Lands | FrictionOutcome::Turns => {
+            FrictionOutcome::TurnsRound { force, braked }
+                if (braked || self.holds_without_spring(law)) && force * self.elongation < 0.0 =>
+            {
+                self.held = force;
                 self.let_go(law) + self.follow(law, None, normal_force)
             }
+            FrictionOutcome::TurnsRound { .. }
+            | FrictionOutcome::Follows
+            | FrictionOutcome::Lands
+            | FrictionOutcome::Turns => self.let_go(law) + self.follow(law, None, normal_force),
         }
     }
 

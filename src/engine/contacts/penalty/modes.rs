@@ -229,7 +229,7 @@ impl Choice<'_> {
 
     fn choose_by_velocity<N: NormalForce>(&mut self, case: &ContactSides, approach: Approach) {
         self.change(case, FrictionOutcome::Follows, |contact, law, losses| {
-            contact.choose_mode::<N>(law, approach, losses)
+            contact.choose_mode::<N>(law, approach, FrictionOutcome::Follows, losses)
         });
     }
 
@@ -390,14 +390,14 @@ impl Choice<'_> {
         let mut entirely = may_rest;
         for (case, outcome) in cases.iter().zip(island.outcomes(self.dt)) {
             match outcome {
-                ContactOutcome::Moves { approaches } => {
+                ContactOutcome::Moves { approaches, tangential, rolling } => {
                     entirely = false;
                     let mut approach = approach(self.sink.bodies, case.other_end(), &case.b, case.normal);
                     if !N::DEPENDS_ON_VELOCITY {
                         approach.parting = if approaches { -1.0 } else { 1.0 };
                     }
-                    self.change(case, FrictionOutcome::Follows, |contact, law, losses| {
-                        contact.choose_mode::<N>(law, approach, losses)
+                    self.change(case, rolling, |contact, law, losses| {
+                        contact.choose_mode::<N>(law, approach, tangential, losses)
                     });
                 }
                 ContactOutcome::Rests { normal, tangential, rolling, entirely: stops } => {

@@ -3,7 +3,7 @@
 
 use super::apply::{PenaltyContacts, Sink};
 use super::contact::Contact;
-use super::coulomb::{Grip, Loosening, Slider, SliderLaw};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::held::Held;
 use super::indicators::{PhaseEnd, Pressure, SliderMotion, tell_slider};
 use super::normal::Mode;
@@ -171,8 +171,7 @@ pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &Pa
     if contact.mode == Mode::Open {
         *slider = Slider::default();
     }
-    let loosening = if contact.mode == Mode::Hold { Loosening::None } else { Loosening::Moving };
-    slider.come_loose(&law, loosening, geometry.turning());
+    slider.come_loose(&law, contact.mode != Mode::Hold, geometry.turning());
 }
 
 /// The preferred load of a rolling spring on side B, if the spring of the contact pulls with `pull` newtons.

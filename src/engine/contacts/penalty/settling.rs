@@ -1,7 +1,7 @@
 //! The choice of modes from the forces of a state, without regard to the mode before. It serves states that these contacts have
 //! not made themselves, and states behind an event, at which forces have jumped.
 
-use super::coulomb::{Grip, Loosening, Slider, SliderLaw};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::indicators::SliderMotion;
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
@@ -139,15 +139,14 @@ impl View<'_> {
     /// A held contact goes on in a mode. Its springs are as drawn as `before`: a slide that was tried at this moment drew none.
     /// Friction that slid up to this moment slides on.
     pub(super) fn release(&mut self, index: usize, mode: Mode, mut before: [Option<Slider>; 2]) {
-        let mut loosening = Loosening::Moving;
         if self.contacts.stopped.contains(&(index as u32)) {
-            (before[0], loosening) = (None, Loosening::Tried);
+            before[0] = None;
         }
         let geometry = self.look(index);
         let (mut contact, law, roller) = self.whole(index, &geometry);
         contact.mode = mode;
         contact.tangential.undo_slide(before[0]);
-        contact.come_loose(law, &geometry, loosening);
+        contact.come_loose(law, &geometry);
         if let Some((slider, law)) = roller {
             slider.undo_slide(before[1]);
             rolling_stages::come_loose((slider, law), &contact, &geometry);

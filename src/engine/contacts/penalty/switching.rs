@@ -17,7 +17,7 @@
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
-use super::coulomb::{Grip, Loosening, Slider, SliderLaw};
+use super::coulomb::{Grip, Slider, SliderLaw};
 use super::indicators::SliderMotion;
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
@@ -193,7 +193,7 @@ impl View<'_> {
             let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
             let base = Base::at_touch::<N>(law, &geometry, bodies);
             contact.switch::<N>(law, what, &geometry, base);
-            contact.come_loose(law, &geometry, Loosening::Moving);
+            contact.come_loose(law, &geometry);
             let (stands, normal_force) =
                 (matches!(what, What::Turn) && contact.mode == Mode::Hold, contact.normal_force);
             if stands {
@@ -516,11 +516,11 @@ impl Contact {
     }
 
     /// Adapts the spring to a normal mode that has changed. When the normal is released, the spring replaces the hold.
-    /// A holding spring remembers its direction. `loose`: how, if it is not held.
-    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry, loose: Loosening) {
+    /// A holding spring remembers its direction.
+    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry) {
         // Friction without a spring holds beside any normal force.
-        let loosening = if law.exact || self.mode == Mode::Hold { Loosening::None } else { loose };
-        self.tangential.come_loose(&law.tangential(), loosening, geometry.sliding(law.shares()));
+        let is_loose = !law.exact && self.mode != Mode::Hold;
+        self.tangential.come_loose(&law.tangential(), is_loose, geometry.sliding(law.shares()));
     }
 
     /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
