@@ -21,10 +21,10 @@ pub fn mark_inner(hulls: &mut [Hull]) {
         return;
     }
     let (middle, tie) = (middle(hulls), tie(hulls));
-    let (ranks, parts): (Vec<usize>, Vec<Hull>) = hulls
+    let (ranks, parts): (Vec<usize>, Vec<Hull>) = Hull::all_moved(hulls, -middle)
         .iter()
         .enumerate()
-        .filter_map(|(rank, hull)| thick(&hull.moved(-middle), tie).map(|part| (rank, part)))
+        .filter_map(|(rank, hull)| thick(hull, tie).map(|part| (rank, part)))
         .unzip();
     let size = parts.iter().map(|part| part.reach_of_core(DVec2::ZERO) + part.radius()).fold(0.0, f64::max);
     for (part, pieces) in free_boundary(&parts, tie).into_iter().enumerate() {

@@ -6,6 +6,7 @@
 //! index.
 
 use std::collections::{BTreeMap, BTreeSet};
+use std::sync::Arc;
 
 use glam::DVec2;
 
@@ -217,7 +218,8 @@ pub(crate) fn hulls(corners: &[DVec2], radius: f64) -> Vec<Hull> {
     };
     let mut hulls: Vec<Hull> = convex_parts(corners).into_iter().map(part_to_hull).collect();
     if hulls.len() > 1 {
-        hulls.iter_mut().for_each(|hull| hull.set_outline(corners.to_vec()));
+        let outline: Arc<[DVec2]> = corners.into();
+        hulls.iter_mut().for_each(|hull| hull.set_outline(outline.clone()));
     }
     hulls
 }

@@ -6,6 +6,7 @@
 //! of each side. Lengths are in metres.
 
 use std::collections::BTreeMap;
+use std::sync::Arc;
 
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
@@ -63,8 +64,30 @@ pub struct Hull {
     corners: Vec<DVec2>,
     sides: Vec<HullSide>,
     free: Vec<Free>,
-    outline: Vec<DVec2>,
+    /// The parts of one polygon share it.
+    outline: Arc<[DVec2]>,
     radius: f64,
+}
+
+/// Outlines made of others. Parts of one polygon share their outline before, and so they do afterwards.
+#[derive(Default)]
+pub(crate) struct SharedOutlines {
+    /// That of a hull, and the one made of it.
+    last: Option<[Arc<[DVec2]>; 2]>,
+}
+
+impl SharedOutlines {
+    /// The outline that `make` makes of that of a hull. `make` is called once for neighbours in a list that share theirs.
+    pub(crate) fn of(&mut self, hull: &Hull, make: impl FnOnce(&[DVec2]) -> Vec<DVec2>) -> Arc<[DVec2]> {
+        match &self.last {
+            Some([from, to]) if Arc::ptr_eq(from, &hull.outline) => to.clone(),
+            _ => {
+                let to: Arc<[DVec2]> = make(&hull.outline).into();
+                self.last = Some([hull.outline.clone(), to.clone()]);
+                to
+            }
+        }
+    }
 }
 
 impl Hull {
@@ -134,7 +157,7 @@ impl Hull {
                 })
                 .collect(),
         };
-        Self { sides, free: vec![Free::Whole; count], outline: Vec::new(), corners, radius }
+        Self { sides, free: vec![Free::Whole; count], outline: Arc::default(), corners, radius }
     }
 
     /// The corners of the core, counter-clockwise, in metres.
@@ -162,13 +185,18 @@ impl Hull {
         &self.outline
     }
 
+    /// The same, as the parts of one polygon share it.
+    pub(crate) fn shared_outline(&self) -> Arc<[DVec2]> {
+        self.outline.clone()
+    }
+
     /// Says of which concave polygon the hull is a part.
-    pub(crate) fn set_outline(&mut self, outline: Vec<DVec2>) {
+    pub(crate) fn set_outline(&mut self, outline: Arc<[DVec2]>) {
         self.outline = outline;
     }
 
     /// The same corners, sides and outline, at other places, in metres.
-    pub(crate) fn with_corners(&self, corners: Vec<DVec2>, outline: Vec<DVec2>, radius: f64) -> Self {
+    pub(crate) fn with_corners(&self, corners: Vec<DVec2>, outline: Arc<[DVec2]>, radius: f64) -> Self {
         let mut moved = Self { free: self.free.clone(), outline, ..Self::of_corners(corners, radius) };
         moved.sides.iter_mut().zip(&self.sides).for_each(|(side, old)| side.inner = old.inner);
         moved
@@ -205,18 +233,40 @@ impl Hull {
     /// The same hull, moved by so many metres.
     #[must_use]
     pub fn moved(&self, by: DVec2) -> Self {
-        let mut moved = self.clone();
-        moved.corners.iter_mut().chain(&mut moved.outline).for_each(|corner| *corner += by);
+        self.moved_beside(by, &mut SharedOutlines::default())
+    }
+
+    /// Hulls moved by so many metres, in their order.
+    pub fn all_moved(hulls: &[Self], by: DVec2) -> Vec<Self> {
+        let mut shared = SharedOutlines::default();
+        hulls.iter().map(|hull| hull.moved_beside(by, &mut shared)).collect()
+    }
+
+    fn moved_beside(&self, by: DVec2, shared: &mut SharedOutlines) -> Self {
+        let outline = shared.of(self, |outline| outline.iter().map(|corner| *corner + by).collect());
+        let mut moved = Self { outline, ..self.clone() };
+        moved.corners.iter_mut().for_each(|corner| *corner += by);
         moved
     }
 
     /// The same hull, turned about the origin by an angle in radians, counter-clockwise.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
+        self.turned_beside(angle, &mut SharedOutlines::default())
+    }
+
+    /// Hulls turned about the origin by an angle in radians, counter-clockwise, in their order.
+    pub fn all_turned(hulls: &[Self], angle: f64) -> Vec<Self> {
+        let mut shared = SharedOutlines::default();
+        hulls.iter().map(|hull| hull.turned_beside(angle, &mut shared)).collect()
+    }
+
+    fn turned_beside(&self, angle: f64, shared: &mut SharedOutlines) -> Self {
         let (sin, cos) = libm::sincos(angle);
         let turn = |direction: DVec2| DVec2::new(cos, sin).rotate(direction);
-        let mut turned = self.clone();
-        turned.corners.iter_mut().chain(&mut turned.outline).for_each(|corner| *corner = turn(*corner));
+        let outline = shared.of(self, |outline| outline.iter().map(|corner| turn(*corner)).collect());
+        let mut turned = Self { outline, ..self.clone() };
+        turned.corners.iter_mut().for_each(|corner| *corner = turn(*corner));
         turned.sides.iter_mut().for_each(|side| side.normal = turn(side.normal));
         for free in &mut turned.free {
             if let Free::Between(from, to) = *free {
@@ -286,7 +336,7 @@ impl Hull {
 }
 
 /// The bits of a place, by which it is found.
-fn bits(point: DVec2) -> [u64; 2] {
+pub(crate) fn bits(point: DVec2) -> [u64; 2] {
     [point.x.to_bits(), point.y.to_bits()]
 }
 

@@ -48,7 +48,7 @@ impl AreaMoments {
             return Self::default();
         }
         let (middle, tie) = (middle(hulls), tie(hulls));
-        let parts: Vec<Hull> = hulls.iter().filter_map(|hull| thick(&hull.moved(-middle), tie)).collect();
+        let parts: Vec<Hull> = Hull::all_moved(hulls, -middle).iter().filter_map(|hull| thick(hull, tie)).collect();
         let mut sum = Fan::default();
         for (piece, spans) in free_boundary(&parts, tie).iter().flatten() {
             spans.iter().for_each(|(from, to)| sum += piece.fan(*from, *to));

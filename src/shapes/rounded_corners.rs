@@ -3,10 +3,13 @@
 //! The sides keep their lines and only lose their ends: each corner becomes an arc that touches both sides. Lengths are
 //! in metres.
 
+use std::collections::BTreeMap;
+use std::sync::Arc;
+
 use glam::DVec2;
 use serde::{Deserialize, Serialize};
 
-use crate::hull::{Hull, direction};
+use crate::hull::{Hull, bits, direction};
 
 /// The least share of its length that a side keeps.
 const KEPT: f64 = 0.5;
@@ -27,13 +30,23 @@ impl Hull {
     /// `None` if it is round, or has fewer than three corners. Also `None` if a corner of the outline begins at a cut
     /// for which no outline is known.
     pub fn rounded(&self, radius: f64) -> Option<Rounded> {
+        Self::all_rounded(std::slice::from_ref(self), radius).pop()?
+    }
+
+    /// The same of each hull, in their order. The parts of a polygon share its new outline.
+    pub fn all_rounded(hulls: &[Self], radius: f64) -> Vec<Option<Rounded>> {
+        let mut last = None::<Inset>;
+        hulls.iter().map(|hull| hull.rounded_beside(radius, &mut last)).collect()
+    }
+
+    fn rounded_beside(&self, radius: f64, last: &mut Option<Inset>) -> Option<Rounded> {
         if self.radius() > 0.0 || self.corners().len() < 3 {
             return None;
         }
-        let whole = Ring::of_outline(self).unwrap_or_else(|| Ring::of_hull(self));
-        let radius = whole.largest(radius);
-        let inset = whole.inset(radius);
-        let place = |corner: &DVec2| inset[whole.corners.iter().position(|other| other == corner)?];
+        let known = last.take().filter(|inset| inset.is_of(self));
+        let inset = last.insert(known.unwrap_or_else(|| Inset::of(self, radius)));
+        let radius = inset.radius;
+        let place = |corner: &DVec2| inset.corners.get(&bits(*corner)).copied()?;
         let corners: Vec<DVec2> = self.corners().iter().map(place).collect::<Option<_>>()?;
         let is_cut = |corner: usize| {
             let before = (corner + corners.len() - 1) % corners.len();
@@ -52,8 +65,38 @@ impl Hull {
         }
         let moved = self.corners().iter().zip(&corners).map(|(sharp, round)| sharp.distance(*round));
         let spread = moved.fold(0.0, f64::max) + radius;
-        let outline = if self.outline().is_empty() { Vec::new() } else { inset.into_iter().collect::<Option<_>>()? };
+        let outline = inset.outline.clone()?;
         Some(Rounded { hull: self.with_corners(corners, outline, radius), spread })
+    }
+}
+
+/// An outline whose sides have moved inwards.
+struct Inset {
+    /// The outline before; empty if it is that of one hull.
+    before: Arc<[DVec2]>,
+    /// By how much they have moved, in metres.
+    radius: f64,
+    /// The new place of each corner before. `None`: its sides are parallel.
+    corners: BTreeMap<[u64; 2], Option<DVec2>>,
+    /// The new outline of the concave polygon, empty if there is none. `None` if a corner has no place.
+    outline: Option<Arc<[DVec2]>>,
+}
+
+impl Inset {
+    /// Of the outline of which the hull is a part, or of the hull.
+    fn of(hull: &Hull, radius: f64) -> Self {
+        let part_of = Ring::of_outline(hull);
+        let is_part = part_of.is_some();
+        let whole = part_of.unwrap_or_else(|| Ring::of_hull(hull));
+        let radius = whole.largest(radius);
+        let inset = whole.inset(radius);
+        let outline = if is_part { inset.iter().copied().collect() } else { Some(Arc::default()) };
+        let corners = whole.corners.iter().map(|corner| bits(*corner)).zip(inset).collect();
+        Self { before: hull.shared_outline(), radius, corners, outline }
+    }
+
+    fn is_of(&self, hull: &Hull) -> bool {
+        !self.before.is_empty() && Arc::ptr_eq(&self.before, &hull.shared_outline())
     }
 }
 
@@ -146,6 +189,28 @@ mod tests {
         let lengths = round.sides().iter().zip(hull.sides()).map(|(round, sharp)| round.length / sharp.length);
         let least = lengths.fold(f64::INFINITY, f64::min);
         assert!((least - KEPT).abs() < 1e-12 && round.radius() < 0.1, "{least} {}", round.radius());
+    }
+
+    /// One outline for each part would take memory that grows with the square of the corners.
+    #[test]
+    fn parts_of_a_polygon_share_one_outline_wherever_they_go() {
+        let points: Vec<DVec2> = (0..12)
+            .map(|index| DVec2::from_angle(f64::from(index) * 0.5) * if index % 2 == 0 { 1.0 } else { 0.5 })
+            .collect();
+        let parts = crate::convex_parts::hulls(&points, 0.0);
+        let moved = Hull::all_moved(&parts, DVec2::new(0.3, -0.1));
+        let turned = Hull::all_turned(&moved, 0.7);
+        let rounded = Hull::all_rounded(&turned, 0.01).into_iter().map(|rounded| rounded.unwrap().hull).collect();
+        for hulls in [parts.clone(), moved.clone(), turned.clone(), rounded] {
+            assert!(hulls.len() > 2 && hulls.iter().all(|hull| hull.outline().len() == points.len()));
+            let first = hulls[0].shared_outline();
+            assert!(hulls.iter().all(|hull| Arc::ptr_eq(&first, &hull.shared_outline())));
+        }
+        for ((before, moved), turned) in parts.iter().zip(&moved).zip(&turned) {
+            assert_eq!(*moved, before.moved(DVec2::new(0.3, -0.1)));
+            assert_eq!(*turned, moved.turned(0.7));
+            assert_eq!(turned.rounded(0.01), Hull::all_rounded(std::slice::from_ref(turned), 0.01)[0]);
+        }
     }
 
     #[test]

@@ -30,13 +30,13 @@ impl Shape {
     /// The same shape, moved by so many metres.
     #[must_use]
     pub fn moved(&self, by: DVec2) -> Self {
-        Self { hulls: self.hulls.iter().map(|hull| hull.moved(by)).collect(), ..self.clone() }
+        Self { hulls: Hull::all_moved(&self.hulls, by), ..self.clone() }
     }
 
     /// The same shape, turned about the origin by an angle in radians, counter-clockwise.
     #[must_use]
     pub fn turned(&self, angle: f64) -> Self {
-        Self { hulls: self.hulls.iter().map(|hull| hull.turned(angle)).collect(), ..self.clone() }
+        Self { hulls: Hull::all_turned(&self.hulls, angle), ..self.clone() }
     }
 }
 

@@ -169,7 +169,7 @@ pub fn of_parts(
     let none_touches = specs.is_empty() && !parts.iter().any(|part| part.collides);
     for part in parts {
         let to = if part.collides || none_touches { &mut hulls } else { &mut intangible };
-        to.extend(part.hulls.iter().map(|hull| hull.moved(-center)));
+        to.extend(Hull::all_moved(&part.hulls, -center));
     }
     mark_inner(&mut hulls);
     // A disc that touches is an atom.

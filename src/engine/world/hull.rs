@@ -126,7 +126,8 @@ impl PackedHull {
         // Parts that share corners are rounded alike.
         let half_widths = Hull::half_widths(&hulls.0);
         let least = half_widths.iter().copied().fold(f64::INFINITY, f64::min);
-        hulls.0.iter().zip(half_widths).map(move |(hull, half_width)| {
+        let rounded = Hull::all_rounded(&hulls.0, ROUNDING * least);
+        hulls.0.iter().zip(half_widths).zip(rounded).map(move |((hull, half_width), rounded)| {
             let first_atom = first as u32;
             first += hull.corners().len();
             let extent = hull.reach_of_core(DVec2::ZERO) + hull.radius();
@@ -135,7 +136,7 @@ impl PackedHull {
                 body: body as u32,
                 first_atom,
                 hull: hull.clone(),
-                rounded: hull.rounded(ROUNDING * least),
+                rounded,
                 half_width,
                 extent,
                 circle: (middle, hull.reach_of_core(middle) + hull.radius()),
