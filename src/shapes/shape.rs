@@ -270,6 +270,21 @@ mod tests {
         }
     }
 
+    /// Drawings give one outline many times. Each copy but one is covered as soon as it was compared with that one.
+    #[test]
+    fn the_work_of_copies_above_each_other_grows_with_their_number() {
+        let round = |at: f64| capsule(DVec2::new(at, 0.0), DVec2::new(1.0 + at, 0.5), 0.2).unwrap().hulls;
+        let works = [10, 40].map(|count| {
+            let mut hulls: Vec<Hull> = (0..count).flat_map(|_| [round(0.0), round(0.3)].concat()).collect();
+            work::of(|| (mark_inner(&mut hulls), AreaMoments::union_of(&hulls)))
+        });
+        assert!(works[1] < 6 * works[0], "{works:?}");
+        let union = |count: usize| {
+            AreaMoments::union_of(&(0..count).flat_map(|_| [round(0.0), round(0.3)].concat()).collect::<Vec<_>>())
+        };
+        assert_eq!(union(1), union(40));
+    }
+
     #[test]
     fn a_disc_and_a_capsule_need_a_radius() {
         assert!(matches!(disc(DVec2::ZERO, 0.0), Err(ShapeError::NotPositive { .. })));

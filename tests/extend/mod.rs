@@ -13,6 +13,7 @@ mod integrator;
 mod mixed;
 mod replaced_system;
 mod rows;
+mod shifting_indicators;
 mod snapshot;
 mod snapshot_mutants;
 mod stop;

@@ -328,9 +328,8 @@ impl EventStepper {
                 flow.write(trial);
             }
             flow.tick.evaluate_stage(time);
-            told.clear();
             if locate {
-                flow.tick.tell(told);
+                flow.tick.tell_in_step(indicators.len(), told);
             }
         };
         let (mut told, mut share, mut fired) = (Vec::new(), 1.0, Vec::new());

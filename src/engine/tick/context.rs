@@ -249,6 +249,14 @@ impl Tick<'_> {
         self.state.progress.told = counts;
     }
 
+    /// The indicators of a state in or at the end of a step that began with `count` of them. Candidate pairs that were renewed within the
+    /// step may have more or fewer. Those that came wait for the next step, and those that went last.
+    pub fn tell_in_step(&mut self, count: usize, told: &mut Vec<Indicator>) {
+        told.clear();
+        self.tell(told);
+        told.resize(count, Indicator::lasting(1.0));
+    }
+
     /// Called after a step was accepted and its last state evaluated. Modes whose indicators vanished change, and the
     /// state is ready for the next step. Returns whether all rows that only push do so. If not, no choice of modes was found.
     pub fn end_step(&mut self, fired: &[usize], velocity_error: f64) -> bool {
