@@ -11,6 +11,7 @@ mod crowd;
 mod defaults;
 mod defects;
 mod draw;
+mod driven_wheels;
 mod fast_sensors;
 mod few_contacts;
 mod first_steps;

@@ -8,6 +8,7 @@
 //! | `structure.rs` | finds the islands, blocks and borders of these rows, and keeps them while bodies are linked alike |
 //! | `borders.rs` | solves held contacts beside those factors |
 //! | `cones.rs` | keeps friction of contacts that hold together within their cones |
+//! | `unheld.rs` | finds rows that others contradict |
 //! | `projection.rs` | brings places and velocities back onto the constraints of joints |
 //! | `rest_solver/` | finds bounded forces that bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | groups the links that act on each other |
@@ -29,6 +30,7 @@ mod rows;
 mod solver;
 pub mod spring_network;
 mod structure;
+mod unheld;
 
 pub use cones::{Cone, ConePressure, DEPENDENT, HOLDS};
 pub use dead_point::DeadPoints;

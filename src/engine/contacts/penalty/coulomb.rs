@@ -261,6 +261,19 @@ impl Slider {
         true
     }
 
+    /// Whether it holds. `tried`: those that stuck `before` and are tried as held, or those that held before.
+    pub(super) fn holds(&self, tried: bool, before: Option<Self>) -> bool {
+        self.grip == Grip::Hold && tried == before.is_some_and(|before| before.grip == Grip::Stick)
+    }
+
+    /// Swings as it did `before`, or on from where it holds.
+    pub(super) fn swing(&mut self, law: &SliderLaw, motion: &SliderMotion, before: Option<Self>) {
+        if !self.swing_back(before) {
+            self.let_go(law);
+            self.held = 0.0_f64.copysign(motion.rate);
+        }
+    }
+
     /// Lets a spring slip that is beyond its cone, or swing back if it stuck `before`. Says whether it was.
     pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base, before: Option<Self>) -> bool {
         // At the beginning or end of a contact, rounding may leave a normal force below zero.

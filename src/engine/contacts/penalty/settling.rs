@@ -8,7 +8,7 @@ use super::pair_law::PairLaw;
 use super::rolling_stages;
 use super::standing;
 use super::switching::{Base, View, standing_mode};
-use crate::constraints::HOLDS;
+use crate::constraints::{HOLDS, Rows};
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
 
@@ -25,13 +25,14 @@ fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<M
 impl View<'_> {
     /// Corrects modes that cannot last under the forces just evaluated. Says whether there were any.
     ///
-    /// Friction waits for the normal forces. A contact that is tried as held has a separate force until it is released.
-    pub fn settle<N: NormalForce>(&mut self) -> bool {
+    /// Friction waits for the normal forces, and for `rows` that contradict each other. A contact that is tried as held has a separate force until it is released.
+    pub fn settle<N: NormalForce>(&mut self, rows: &Rows) -> bool {
         self.open_account();
         let corrected = self.share_cones(true)
             || self.settle_held_friction::<N>()
             || self.settle_normals::<N>()
             || self.settle_unheld()
+            || self.settle_contradictions(rows)
             || self.settle_friction::<N>(|grip| grip != Grip::Hold)
             || self.settle_friction::<N>(|grip| grip == Grip::Hold)
             || self.hold_again::<N>();
@@ -168,6 +169,47 @@ impl View<'_> {
                 corrected = true;
             }
         }
+        corrected
+    }
+
+    /// Lets springs swing where rows contradict each other, because friction that holds is a row too. Says whether there were any.
+    /// Those tried as held at this moment come first: without them, the others may hold.
+    fn settle_contradictions(&mut self, rows: &Rows) -> bool {
+        let holds = |slider: &Slider| slider.grip == Grip::Hold;
+        let some_hold = (0..self.len()).any(|index| {
+            let geometry = self.look(index);
+            let (contact, _, roller) = self.whole(index, &geometry);
+            holds(&contact.tangential) || roller.is_some_and(|(slider, _)| holds(slider))
+        });
+        if !some_hold {
+            return false;
+        }
+        let reached = rows.contradicted(self.bodies);
+        !reached.is_empty() && (self.swing_among(&reached, true) || self.swing_among(&reached, false))
+    }
+
+    /// Lets springs of these bodies swing that hold: those that were `tried`, or the others. Says whether there were any.
+    fn swing_among(&mut self, reached: &[usize], tried: bool) -> bool {
+        let mut corrected = false;
+        let springs = std::mem::take(&mut self.contacts.before);
+        for index in 0..self.len() {
+            if !self.movable(index).any(|body| reached.contains(&body)) {
+                continue;
+            }
+            let before = springs.get(index).copied().unwrap_or_default();
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (mut contact, law, roller) = self.whole(index, &geometry);
+            if !law.exact && contact.tangential.holds(tried, before[0]) {
+                let motion = SliderMotion::along(&geometry, law.shares(), bodies);
+                contact.tangential.swing(&law.tangential(), &motion, before[0]);
+                corrected = true;
+            }
+            if let Some((slider, law)) = roller.filter(|(slider, _)| slider.holds(tried, before[1])) {
+                slider.swing(&law, &SliderMotion::of_turning(&geometry, bodies), before[1]);
+                corrected = true;
+            }
+        }
+        self.contacts.before = springs;
         corrected
     }
 

@@ -104,7 +104,7 @@ impl<N: NormalForce> Events for Contacts<N> {
     }
 
     fn settle(&mut self, state: &State) -> bool {
-        view(&mut self.own, state).is_some_and(|mut view| view.settle::<N>())
+        view(&mut self.own, state).is_some_and(|mut view| view.settle::<N>(state.rows()))
     }
 
     fn take_stock(&mut self, state: &State) {
