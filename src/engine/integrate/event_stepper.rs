@@ -275,6 +275,7 @@ impl EventStepper {
 
     fn attempt(&mut self, flow: &mut WorldFlow, from: f64, mut until: f64) -> Option<Made> {
         let locate = self.located;
+        flow.ends_at(until);
         let Work { rates, change, trial, indicators, .. } = &mut self.work;
         let start = Start { time: from, state: &self.state, rates };
         let (method, rest) = (&mut self.method, &self.rest);

@@ -49,8 +49,10 @@ pub(super) fn longest_under_loads(flow: &WorldFlow, indicators: &[Indicator], fr
 pub(super) fn rounding_of_time(flow: &mut WorldFlow, start: Start, length: f64) -> Vec<f64> {
     let until = start.time + length;
     let (mut rounding, mut before) = (vec![0.0; flow.dimension()], vec![0.0; flow.dimension()]);
+    let end = flow.ends_at(f64::NAN);
     flow.rates(until, start.state, &mut rounding);
     flow.rates(until - 4.0 * f64::EPSILON * until.abs(), start.state, &mut before);
+    flow.ends_at(end);
     rounding.iter_mut().zip(&before).for_each(|(rate, before)| *rate = length * (*rate - before).abs());
     let coordinates = flow.coordinates();
     for index in 0..coordinates {

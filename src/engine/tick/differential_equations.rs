@@ -39,7 +39,13 @@ pub struct WorldFlow<'t, 'w> {
     held: bool,
     /// The values of all indicators at each evaluation, if they are recorded: times in s.
     stages: Option<Vec<(f64, Vec<f64>)>>,
+    /// The end of the present step in s.
+    end: f64,
 }
+
+/// The greatest distance between a time and the sum that stands for it, in units of its rounding. A method adds the lengths of its
+/// parts to the beginning, at most seven. The length of the step is a rounded difference.
+const ROUNDINGS_OF_A_SUM: f64 = 8.0;
 
 impl<'t, 'w> WorldFlow<'t, 'w> {
     /// The world in this tick. It is made again after modes have changed.
@@ -55,7 +61,31 @@ impl<'t, 'w> WorldFlow<'t, 'w> {
         let held = tick.state.is_only_held();
         let velocity_dependent =
             if held { tick.state.depends_on_velocity_beside_joints() } else { tick.velocity_dependent };
-        Self { tick, dynamic, blocks, own, others, dimension, velocity_dependent, watched, held, stages: None }
+        Self {
+            tick,
+            dynamic,
+            blocks,
+            own,
+            others,
+            dimension,
+            velocity_dependent,
+            watched,
+            held,
+            stages: None,
+            end: f64::NAN,
+        }
+    }
+
+    /// The present step ends at this time in s, and none does at NaN. A stage at its end sees forces of that time exactly. Within the
+    /// rounding of a time a steep course may change by much. Returns the end before.
+    pub fn ends_at(&mut self, time: f64) -> f64 {
+        std::mem::replace(&mut self.end, time)
+    }
+
+    /// The time that the sum of a beginning and a length stands for.
+    fn exact(&self, time: f64) -> f64 {
+        let rounding = ROUNDINGS_OF_A_SUM * f64::EPSILON * self.end.abs();
+        if (time - self.end).abs() <= rounding { self.end } else { time }
     }
 
     /// From here on the values of all indicators at each evaluation are recorded, or not.
@@ -297,6 +327,7 @@ impl Flow for WorldFlow<'_, '_> {
     }
 
     fn rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        let time = self.exact(time);
         self.write(state);
         self.tick.evaluate_stage(time);
         self.read_rates(rates);
@@ -308,6 +339,7 @@ impl Flow for WorldFlow<'_, '_> {
     }
 
     fn kick_rates(&mut self, time: f64, state: &[f64], rates: &mut [f64]) {
+        let time = self.exact(time);
         self.write(state);
         self.tick.evaluate_kick(time);
         self.read_rates(rates);
