@@ -43,3 +43,22 @@ fn wheels_that_motors_drive_through_a_valley_keep_energy() {
         }
     }
 }
+
+/// Rigid friction does not give, so no motion satisfies two motors on a bent line. One motor has a motion.
+#[test]
+fn rigid_friction_that_contradicts_motors_is_not_trusted() {
+    let rigid = |scene: String| scene.replacen("materials", "contacts: Penalty(tangential: Exact), materials", 1);
+    let unlimited = |scene: String| scene.replace(", limit: 12.0", "");
+    let both = scene("method: Dop853, tick: 1e-3", 12.0, "friction: 1");
+    let rear = both.replace("Motor(of: \"front_axle\", speed: -16, limit: 12.0),", "");
+    for (name, scene, contradicts) in [
+        ("limited motors", rigid(both.clone()), true),
+        ("motors", rigid(unlimited(both.clone())), true),
+        ("one motor", rigid(unlimited(rear)), false),
+        ("springs of friction", unlimited(both), false),
+    ] {
+        let verdict = end(&scene).expect("a run to its end").card.verdict;
+        let found = verdict.starts_with("Do not trust it: from t = ") && verdict.contains("`tangential: Exact` hold");
+        assert_eq!(found, contradicts, "{name}: {verdict}");
+    }
+}

@@ -35,6 +35,27 @@ impl IslandLink for Linked {
     }
 }
 
+/// The indices of the rows of each island, in increasing order. A row that acts on no body is in none.
+pub(super) fn islands(rows: &[Row], bodies: &Bodies) -> Vec<Vec<usize>> {
+    let mut links: Vec<Linked> = rows
+        .iter()
+        .enumerate()
+        .filter_map(|(row, of)| {
+            let [a, b] = of.sides.map(|side| side.map(|side| side.body));
+            Some(Linked { row, own: b.or(a)?, other: b.and(a) })
+        })
+        .collect();
+    let mut islands = Islands::default();
+    islands.sort::<_, Linked>(&mut links, &mut [], bodies);
+    let same = |a: &Linked, b: &Linked| islands.of(a, bodies) == islands.of(b, bodies);
+    let rows_of = |island: &[Linked]| {
+        let mut rows: Vec<usize> = island.iter().map(|link| link.row).collect();
+        rows.sort_unstable();
+        rows
+    };
+    links.chunk_by(same).map(rows_of).collect()
+}
+
 /// The structure of the equations of some rows.
 #[derive(Debug, Default)]
 pub(super) struct Structure {
@@ -66,20 +87,8 @@ impl Structure {
     pub fn find(rows: &[Row], bodies: &Bodies, most_dense: usize) -> Self {
         let ends: Vec<Ends> = rows.iter().map(|row| ends(row, bodies)).collect();
         let mut found = Self { ends, most_dense, ..Self::default() };
-        let mut links: Vec<Linked> = rows
-            .iter()
-            .enumerate()
-            .filter_map(|(row, of)| {
-                let [a, b] = of.sides.map(|side| side.map(|side| side.body));
-                Some(Linked { row, own: b.or(a)?, other: b.and(a) })
-            })
-            .collect();
-        let mut islands = Islands::default();
-        islands.sort::<_, Linked>(&mut links, &mut [], bodies);
         let mut borders = Vec::new();
-        for island in links.chunk_by(|a, b| islands.of(a, bodies) == islands.of(b, bodies)) {
-            let mut island: Vec<usize> = island.iter().map(|link| link.row).collect();
-            island.sort_unstable();
+        for island in islands(rows, bodies) {
             let (held, joints): (Vec<usize>, Vec<usize>) = island.iter().partition(|row| found.ends[**row].held);
             if !held.is_empty() && joints.len() <= most_dense {
                 found.dense.push(island);

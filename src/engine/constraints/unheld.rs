@@ -3,15 +3,17 @@
 
 use super::cones::{DEPENDENT, HOLDS};
 use super::rows::Rows;
+use super::structure::islands;
 use crate::world::Bodies;
 
 impl Rows {
     /// The indices of bodies that rows link with a row that accelerates all the same, in increasing order. It follows
-    /// [`Rows::solve`], and the bodies have the forces of all rows.
-    pub fn contradicted(&self, bodies: &Bodies) -> Vec<usize> {
+    /// [`Rows::solve`], and the bodies have the forces of all rows. Loads cancel whose accelerations are as large as `cancelled`, in
+    /// m/s2 or rad/s2.
+    pub fn contradicted(&self, bodies: &Bodies, cancelled: f64) -> Vec<usize> {
         let own = |index: usize| (self.row(index).response(self.row(index), bodies) * self.force(index)).abs();
-        // An acceleration far below those of all forces is rounding, also where its own forces cancel.
-        let least = DEPENDENT * (0..self.len()).map(own).fold(0.0, f64::max);
+        // An acceleration far below those of all forces and loads is rounding, also where its own forces cancel.
+        let least = DEPENDENT * (0..self.len()).map(own).fold(cancelled, f64::max);
         let moves = |index: &usize| {
             let row = self.row(*index);
             let acceleration = row.acceleration(bodies).abs();
@@ -22,18 +24,15 @@ impl Rows {
             let sides = self.row(index).sides.iter().flatten().map(|side| side.body);
             sides.filter(|body| bodies.dynamic[*body])
         };
-        let mut reached: Vec<usize> = (0..self.len()).filter(moves).flat_map(movable).collect();
-        let mut before = 0;
-        while !reached.is_empty() && reached.len() > before {
-            reached.sort_unstable();
-            reached.dedup();
-            before = reached.len();
-            for index in 0..self.len() {
-                if movable(index).any(|body| reached.contains(&body)) {
-                    reached.extend(movable(index).filter(|body| !reached[..before].contains(body)).collect::<Vec<_>>());
-                }
-            }
+        let moving: Vec<usize> = (0..self.len()).filter(moves).collect();
+        if moving.is_empty() {
+            return Vec::new();
         }
+        let islands = islands(self.all(), bodies);
+        let moved = islands.iter().filter(|island| moving.iter().any(|row| island.binary_search(row).is_ok()));
+        let mut reached: Vec<usize> = moved.flatten().flat_map(|row| movable(*row)).collect();
+        reached.sort_unstable();
+        reached.dedup();
         reached
     }
 }

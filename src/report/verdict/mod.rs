@@ -6,6 +6,7 @@
 
 mod ahead;
 mod asked;
+mod contradiction;
 mod energy;
 mod far_places;
 mod near;
@@ -54,7 +55,7 @@ pub(super) struct Cause {
 const FEW: usize = 30;
 
 /// All causes, in such an order that the first explains later ones.
-const CAUSES: [fn(&Evidence) -> Option<Cause>; 23] = [
+const CAUSES: [fn(&Evidence) -> Option<Cause>; 24] = [
     ticks::unstable,
     asked::otherwise,
     ahead::overlaps_at_the_start,
@@ -62,6 +63,7 @@ const CAUSES: [fn(&Evidence) -> Option<Cause>; 23] = [
     near::attraction,
     far_places::rounding,
     energy::not_finite,
+    contradiction::held,
     ticks::unseen_swing,
     ticks::unseen_path,
     energy::unaccounted,
@@ -129,8 +131,14 @@ impl Evidence<'_> {
             return "stiffness and tick do not matter here: the wall is open on the side that the body hit".to_owned();
         }
         let deep = matches!(failure.wrong, FailureKind::Crossed(_) | FailureKind::Sunk(_));
-        let known =
-            [ticks::unstable, ahead::overlaps_at_the_start, ahead::drag, near::attraction, far_places::rounding];
+        let known = [
+            ticks::unstable,
+            asked::otherwise,
+            ahead::overlaps_at_the_start,
+            ahead::drag,
+            near::attraction,
+            far_places::rounding,
+        ];
         let Some(Cause { what, remedy, .. }) = known.into_iter().find_map(|cause| cause(self)) else {
             if deep {
                 return "a stiffer contact bears more, and a finer tick sees bodies before they are deep in each other"

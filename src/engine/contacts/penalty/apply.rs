@@ -9,6 +9,7 @@ use super::begun::{self, Begun};
 use super::contact::Losses;
 use super::contact_list::ContactList;
 use super::contact_stages;
+use super::contradicted::Contradicted;
 use super::coulomb::Slider;
 use super::critical::Watch;
 use super::held::Held;
@@ -76,6 +77,8 @@ pub struct PenaltyContacts {
     /// Contacts whose normal motion ended at the last event.
     #[serde(skip)]
     pub(super) turned: Vec<u32>,
+    /// The body whose rigid friction contradicted other rows first.
+    pub(super) contradicted: Option<Contradicted>,
     /// The estimate of the error counts it, and a run from a snapshot has none.
     #[serde(skip)]
     pub(super) wedged: Option<Wedged>,
@@ -107,6 +110,7 @@ impl Default for PenaltyContacts {
             slid: 0.0,
             begun: Vec::new(),
             turned: Vec::new(),
+            contradicted: None,
             wedged: None,
         }
     }

@@ -9,6 +9,7 @@ mod case;
 pub mod contact;
 pub mod contact_list;
 mod contact_stages;
+pub mod contradicted;
 pub mod coulomb;
 mod critical;
 pub mod dashpot;

@@ -7,6 +7,7 @@ use bevy_ecs::prelude::*;
 
 use super::apply::{Own, PenaltyContacts, Shared, Sink, apply};
 use super::at_rest::{self, AtRest};
+use super::contradicted::Contradicted;
 use super::modes::{Scratch, choose};
 use super::normal::NormalForce;
 use super::rolling::{self, RollingContacts};
@@ -43,6 +44,11 @@ impl PenaltyState {
     /// The body that came to rest in one of several ways and gives most, if there is one.
     pub fn wedged(&self) -> Option<Wedged> {
         self.contacts.wedged
+    }
+
+    /// The body whose rigid friction contradicted other rows first, if there is one. The run is wrong from then on.
+    pub fn contradicted(&self) -> Option<Contradicted> {
+        self.contacts.contradicted
     }
 
     /// The section of the scene for contacts.

@@ -40,6 +40,8 @@ pub(super) fn demand_fit<N: NormalForce>(own: &PenaltyState, state: &State) -> R
     let released = contacts.released.iter().all(|index| (*index as usize) < all);
     demand(released, "the contacts whose forces were released")?;
     demand(contacts.held.fits(state.rows().len(), all, bodies.len()), "the held contacts")?;
+    let contradicted = contacts.contradicted.is_none_or(|one| one.body < bodies.len() && one.since.is_finite());
+    demand(contradicted, "the body that contacts hold against other rows")?;
     demand(contacts.rest.fits(bodies.len()), "the bodies at rest")?;
     demand(contacts.meetings.fits(atoms.len(), bodies.len()), "the meetings of bodies in flight")
 }

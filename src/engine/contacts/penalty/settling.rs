@@ -184,8 +184,18 @@ impl View<'_> {
         if !some_hold {
             return false;
         }
-        let reached = rows.contradicted(self.bodies);
+        let reached = rows.contradicted(self.bodies, self.greatest_load());
         !reached.is_empty() && (self.swing_among(&reached, true) || self.swing_among(&reached, false))
+    }
+
+    /// The greatest acceleration in m/s2 that a normal force alone would make.
+    pub(super) fn greatest_load(&mut self) -> f64 {
+        let mut greatest = 0.0_f64;
+        for index in 0..self.len() {
+            let mobility = self.look(index).approach(self.bodies).mobility;
+            greatest = greatest.max(mobility * self.contact(index).0.normal_force.abs());
+        }
+        greatest
     }
 
     /// Lets springs of these bodies swing that hold: those that were `tried`, or the others. Says whether there were any.

@@ -137,7 +137,9 @@ impl<N: NormalForce> Events for Contacts<N> {
             return false;
         }
         let moved = switching::tidy((bodies, ledger, rows), times, (pairs, contacts, rolling.as_mut()), deepest);
-        View { bodies, pairs, contacts, rolling: rolling.as_mut() }.note_wedged::<N>(times.0);
+        let mut view = View { bodies, pairs, contacts, rolling: rolling.as_mut() };
+        view.note_wedged::<N>(times.0);
+        view.note_contradicted(rows, times.0);
         moved
     }
 
