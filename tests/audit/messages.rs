@@ -7,8 +7,8 @@
 use std::path::PathBuf;
 use std::process::Command;
 
-use jostle::Simulation;
 use jostle::scene::Source;
+use jostle::{Simulation, SimulationExt};
 
 const REST: &str = "bodies: [(name: \"a\", at: (0, 0), mass: 1, atoms: Disc(radius: 0.1))],";
 
@@ -96,4 +96,20 @@ fn no_message_shows_dozens_of_digits() {
         }
     }
     assert!(refused >= 60, "only {refused} of the scenes are refused, so few messages were seen");
+}
+
+/// All bodies behind a wall were pushed out of it. Its points are the remedy, not the places of bodies.
+#[test]
+fn a_wall_with_all_bodies_behind_it_is_told_to_be_turned() {
+    for (left, right, turned) in [("(-5, 0)", "(5, 0)", true), ("(5, 0)", "(-5, 0)", false)] {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 0.2), walls: [(name: \"floor\", left: {left}, right: {right})],
+                bodies: [(name: \"a\", at: (0, 0.1), atoms: Disc(radius: 0.1)), (name: \"b\", at: (0, 0.2), atoms: Disc(radius: 0.1))])"
+        );
+        let mut simulation = Simulation::load(&Source::new("wall.ron", text)).unwrap();
+        simulation.run_to_end().unwrap();
+        let verdict = simulation.card().verdict;
+        assert!(verdict.contains("overlap at the start"), "{verdict}");
+        assert_eq!(verdict.contains("the points of `floor` in the other order"), turned, "{verdict}");
+    }
 }

@@ -3,7 +3,8 @@
 use super::energy::UNACCOUNTED;
 use super::{Cause, Evidence, Trust, VerdictPart};
 use crate::Remedy;
-use jostle_engine::contacts::search::OverlapAtStart;
+use bevy_ecs::prelude::*;
+use jostle_engine::contacts::search::{OverlapAtStart, TurnedWalls};
 use jostle_engine::forces::resists;
 use jostle_engine::tick::State;
 use jostle_language::numbers::{number, percent};
@@ -41,7 +42,15 @@ pub(super) fn overlaps_at_the_start(evidence: &Evidence) -> Option<Cause> {
             percent(share)
         )
     };
-    let remedy = Some("other places, smaller bodies, or `collides: false`".to_owned());
+    let turned = world.get_resource::<TurnedWalls>().and_then(|walls| {
+        let before = |entity: &Entity| walls.0.contains(entity);
+        [overlap.between.0, overlap.between.1].into_iter().find(before)
+    });
+    let remedy = turned.map_or_else(
+        || "other places, smaller bodies, or `collides: false`".to_owned(),
+        |wall| format!("the points of `{}` in the other order, because all bodies are behind it", evidence.name(wall)),
+    );
+    let remedy = Some(remedy);
     (unseen || share > COMPRESSED).then_some(Cause { trust: Trust::ButNot(VerdictPart::Model), what, remedy })
 }
 

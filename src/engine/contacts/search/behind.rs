@@ -9,10 +9,15 @@ use crate::world::{Bodies, Name, PackedWall, Wall};
 /// Places that are compared with walls for the note, at most: a second is enough.
 const MOST_LOOKS: usize = 1 << 27;
 
+/// The walls with all bodies behind them that move by forces, at the start.
+#[derive(Resource, Debug, Default)]
+pub struct TurnedWalls(pub Vec<Entity>);
+
 /// Says on the card which walls have all bodies behind them that move by forces.
 pub(super) fn note_behind(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let turned: Vec<Entity> = turned_lines(bodies).chain(turned_half_planes(bodies)).map(|wall| wall.entity).collect();
+    world.insert_resource(TurnedWalls(turned.clone()));
     for entity in turned {
         let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
         let has_thickness = world.get::<Wall>(entity).is_some_and(|wall| wall.thickness.is_some());

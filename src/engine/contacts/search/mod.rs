@@ -21,6 +21,7 @@ mod still;
 mod sunk;
 
 pub use at_start::OverlapAtStart;
+pub use behind::TurnedWalls;
 
 use bevy_app::App;
 use bevy_ecs::world::World;
