@@ -26,6 +26,7 @@ mod letting_go;
 mod lifted_boxes;
 mod loose_tolerances;
 mod messages;
+mod narrow_pulses;
 mod other_kind;
 mod partial_slip;
 mod pushed_boxes;

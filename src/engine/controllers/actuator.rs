@@ -11,7 +11,7 @@ use super::target::ControlTarget;
 use crate::scene::units::dimension::{OfForce, OfTorque};
 use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
-use crate::tick::{Energies, ForceOn, Model, Rhythm, State, SteadySpring, TickAppExt};
+use crate::tick::{Departure, Energies, EvaluationMode, ForceOn, Model, Rhythm, State, SteadySpring, TickAppExt};
 
 /// Turns a hinge by a torque, or pushes a slide by a force, that follows a course in time.
 #[derive(Deserialize, JsonSchema)]
@@ -87,6 +87,11 @@ impl Model for ActuatorForce {
 
     fn next_edge(&self, time: f64) -> f64 {
         self.force.next_point(time)
+    }
+
+    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
+        let course = self.force.course();
+        course.and_then(|course| course.departure(&self.output.path, state, mode)).into_iter().collect()
     }
 
     fn apply_forces(&mut self, state: &mut State) {

@@ -24,7 +24,8 @@ use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, WrittenEntry};
 
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{
-    Bend, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring, TickAppExt,
+    Bend, Departure, Energies, EvaluationMode, Events, ForceOn, Indicator, Model, Rhythm, State, SteadySpring,
+    TickAppExt,
 };
 
 /// Drives a hinge to an angle, or a slide to a position. Its torque (force) has three terms: `kp (target - angle)`, `ki`
@@ -281,6 +282,16 @@ impl Model for ServoForce {
         // A step is planned before its sample is taken, so the sample of this moment counts as taken.
         let sample = self.sampling.as_ref().map_or(f64::INFINITY, |sampling| sampling.edge_after(time));
         self.target.next_point(time).min(sample)
+    }
+
+    /// Samples are taken at ticks of their own, so they see what they ask for.
+    fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
+        let course = self.target.course().filter(|_| self.sampling.is_none());
+        let path = &self.output.path;
+        let of_place = course.and_then(|course| course.departure(path, state, mode));
+        let of_rate = course.filter(|_| self.gains[2] != 0.0);
+        let of_rate = of_rate.and_then(|course| course.departure_of_rate(path, state, mode));
+        of_place.into_iter().chain(of_rate).collect()
     }
 
     fn has_modes(&self) -> bool {

@@ -110,6 +110,14 @@ impl<A, B> ControlTarget<A, B> {
         }
     }
 
+    /// The course, if it is one.
+    pub(crate) fn course(&self) -> Option<&Course> {
+        match &self.value {
+            Value::Constant(_) => None,
+            Value::Course(course) => Some(course),
+        }
+    }
+
     /// The time in seconds of the first kink after `time`; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
         match &self.value {

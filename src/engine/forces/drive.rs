@@ -255,12 +255,56 @@ impl Course {
         (!ticks.is_empty() && whole > 0.0).then_some(shares)
     }
 
+    /// The effect on an impulse of points between two ticks, for the entry at `path`.
+    pub(crate) fn departure(&self, path: &str, state: &State, mode: EvaluationMode) -> Option<Departure> {
+        let shares = self.lost_and_gained(&clock_of_whole_ticks(state, mode)?)?;
+        departure(path, "impulse", shares)
+    }
+
+    /// The effect of points between two ticks on the way of a target, whose rate counts at ticks only.
+    pub(crate) fn departure_of_rate(&self, path: &str, state: &State, mode: EvaluationMode) -> Option<Departure> {
+        let clock = clock_of_whole_ticks(state, mode)?;
+        let Self::Piecewise(points) = self else { return None };
+        let (end, mut seen, mut whole, mut shares) = (clock.time(), 0.0, 0.0, (0.0_f64, 0.0_f64));
+        for piece in points.windows(2) {
+            let (from, to) = (piece[0].0.si().clamp(0.0, end), piece[1].0.si().clamp(0.0, end));
+            if from < to {
+                let ticks = first_tick(&clock, to) - first_tick(&clock, from);
+                let (slope, change) = (self.rate(from, from), self.at(to) - self.at(from));
+                seen += slope * ticks * clock.dt - change;
+                whole += change.abs();
+                let beyond = seen * change.signum();
+                shares = (shares.0.max(-beyond), shares.1.max(beyond));
+            }
+        }
+        let (lost, gained) = shares;
+        (whole > 0.0).then(|| departure(path, "way", (lost / whole, gained / whole)))?
+    }
+
     /// The first point of a table after `time` seconds, where the course has a kink; infinity if there is none.
     pub fn next_point(&self, time: f64) -> f64 {
         let Self::Piecewise(points) = self else { return f64::INFINITY };
         let next = points.partition_point(|point| point.0.si() <= time);
         points.get(next).map_or(f64::INFINITY, |point| point.0.si())
     }
+}
+
+/// The number of the first tick that does not begin before a time in seconds.
+fn first_tick(clock: &Clock, time: f64) -> f64 {
+    let ticks = time / clock.dt;
+    if is_between(clock, time) { ticks.ceil() } else { ticks.round() }
+}
+
+/// A course of which the run lost and gained these shares. Effects below a thousandth are not reported, because the card claims no
+/// better accuracy of energies.
+fn departure(path: &str, effect: &str, (lost, gained): (f64, f64)) -> Option<Departure> {
+    let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
+    let shares: Vec<String> = shares.map(|(share, what)| format!("{what} {}", percent(share))).collect();
+    let what = format!(
+        "points of the course of `{path}` lie between ticks, which do not see them. Of its {effect}, the run {}",
+        shares.join(" and ")
+    );
+    (!shares.is_empty()).then(|| Departure { what, remedy: REMEDY, share: lost.max(gained) })
 }
 
 /// One entry, ready to be applied.
@@ -314,21 +358,8 @@ impl Model for DriveForce {
         Some(Rhythm { path: self.path.clone(), angular_frequency: self.course.rhythm() })
     }
 
-    /// The effects of points between two ticks. Effects below a thousandth are not reported, because the card claims no
-    /// better accuracy of energies.
     fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
-        let shares = clock_of_whole_ticks(state, mode).and_then(|clock| self.course.lost_and_gained(&clock));
-        let Some((lost, gained)) = shares else { return Vec::new() };
-        let shares = [(lost, "lost"), (gained, "gained")].into_iter().filter(|(share, _)| *share >= 1e-3);
-        let shares: Vec<String> = shares.map(|(share, what)| format!("{what} {}", percent(share))).collect();
-        if shares.is_empty() {
-            return Vec::new();
-        }
-        let (path, shares) = (&self.path, shares.join(" and "));
-        let what = format!(
-            "points of the course of `{path}` lie between ticks, which do not see them. Of its impulse, the run {shares}"
-        );
-        vec![Departure { what, remedy: REMEDY, share: lost.max(gained) }]
+        self.course.departure(&self.path, state, mode).into_iter().collect()
     }
 
     fn apply_forces(&mut self, state: &mut State) {
