@@ -38,3 +38,18 @@ fn a_run_that_goes_on_ends_in_the_same_bits() {
     asked.run_to_end().unwrap();
     assert_eq!(plain.card().hash, asked.card().hash);
 }
+
+/// A step of `Reference` takes fewer evaluations than this, with those that begin it.
+const PER_STEP: u64 = 64;
+
+#[test]
+fn a_run_ends_inside_a_tick_after_its_evaluations() {
+    for most in [100, 1000] {
+        let mut simulation = Simulation::load(&Source::new("orbit.ron", ORBIT)).unwrap();
+        simulation.end_after(most);
+        let failure = simulation.run_to_end().unwrap_err();
+        let count = simulation.state().evaluation().count;
+        assert_eq!(failure.wrong, FailureKind::Stopped);
+        assert!((most..most + PER_STEP).contains(&count), "{count} evaluations of {most}");
+    }
+}

@@ -298,6 +298,12 @@ impl Simulation {
         self.world.resource_mut::<State>().bypass_change_detection().ask_inside_ticks(goes_on);
     }
 
+    /// From now on the run ends inside a tick at the first step behind so many evaluations of forces in all. It ends with
+    /// [`FailureKind::Stopped`] and cannot be continued. From tick to tick nothing is counted.
+    pub fn end_after(&mut self, evaluations: u64) {
+        self.world.resource_mut::<State>().bypass_change_detection().end_after(evaluations);
+    }
+
     /// Runs until `tick` ticks are done in all; does nothing if they are.
     ///
     /// # Errors

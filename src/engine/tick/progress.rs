@@ -66,6 +66,9 @@ pub(super) struct Progress {
     /// Asked at each step inside a tick, with its time in s, whether the run goes on.
     #[serde(skip)]
     pub goes_on: Option<fn(f64) -> bool>,
+    /// Inside a tick the run ends after so many evaluations in all.
+    #[serde(skip)]
+    pub most_evaluations: Option<u64>,
     /// The number of indicators of each model with events at the last call, in order.
     pub told: Vec<usize>,
 }

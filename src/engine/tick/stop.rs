@@ -11,6 +11,12 @@ impl State {
         self.progress.goes_on = Some(goes_on);
     }
 
+    /// From now on the run ends inside a tick, with [`FailureKind::Stopped`], at the first step behind so many evaluations in all. It
+    /// cannot be continued. From tick to tick nothing is counted.
+    pub fn end_after(&mut self, evaluations: u64) {
+        self.progress.most_evaluations = Some(evaluations);
+    }
+
     /// The time in s that the run has reached. It is that of the last tick, or the moment inside one at which the run was ended.
     pub fn reached(&self) -> f64 {
         self.stopped_at().unwrap_or(self.time())
@@ -27,8 +33,9 @@ impl Tick<'_> {
     /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended, or as failed if the present state
     /// is not finite.
     pub fn is_stopped(&mut self, time: f64) -> bool {
-        let Some(goes_on) = self.state.progress.goes_on else { return false };
-        let stopped = !goes_on(time);
+        let progress = &self.state.progress;
+        let spent = progress.most_evaluations.is_some_and(|most| self.state.evaluation.count > most);
+        let stopped = spent || progress.goes_on.is_some_and(|goes_on| !goes_on(time));
         if stopped {
             let state = &mut *self.state;
             state.bodies.catch_up();

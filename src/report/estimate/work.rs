@@ -4,7 +4,7 @@
 use std::time::{Duration, Instant};
 
 use jostle_engine::Simulation;
-use jostle_engine::tick::{Failure, State, work_of_an_evaluation};
+use jostle_engine::tick::{Failure, FailureKind, State, work_of_an_evaluation};
 
 /// The share of the run's work that an estimate may take by default.
 pub(super) const SHARE: f64 = 0.03;
@@ -61,12 +61,13 @@ pub(super) struct Patience {
 }
 
 impl Patience {
-    /// For a run that repeats a part of the first, with steps shorter by the factor `finer`.
-    pub fn of(first: &Simulation, part: f64, finer: f64) -> Self {
+    /// For a run that repeats a part of the first, with steps shorter by the factor `finer`. Each of its evaluations is `dear` times
+    /// as much work.
+    pub fn of(first: &Simulation, part: f64, finer: f64, dear: f64) -> Self {
         let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
         let time = first.state().has_force_systems().then(|| Duration::from_secs_f64(seconds));
         let expected = finer * part * evaluations(first);
-        let evaluations = EXCESS * (expected + FREE / per_evaluation(first));
+        let evaluations = EXCESS * (expected + FREE / (dear * per_evaluation(first)));
         Self { evaluations, expected, time }
     }
 
@@ -80,7 +81,8 @@ impl Patience {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TooLong;
 
-/// Runs until the end of a tick, or until a failure, which is returned. A run that is `useless` goes no farther.
+/// Runs until the end of a tick, or until a failure, which is returned. A run that is `useless` goes no farther. Where a tick takes
+/// many steps, the run ends inside it.
 pub(super) fn run_to_tick(
     simulation: &mut Simulation,
     until: u64,
@@ -88,7 +90,10 @@ pub(super) fn run_to_tick(
     useless: impl Fn(&Simulation) -> bool,
 ) -> Result<Option<Failure>, TooLong> {
     let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
-    let mut failure = None;
+    let mut failure: Option<Failure> = None;
+    if let Some(most) = patience {
+        simulation.end_after(most.evaluations as u64);
+    }
     while failure.is_none() && simulation.clock().ticks < until {
         let done = simulation.clock().ticks as f64 / until as f64;
         let foretold = evaluations(simulation) / if done > TELLS { done } else { 1.0 };
@@ -99,12 +104,14 @@ pub(super) fn run_to_tick(
         }
         failure = simulation.run_to_tick((simulation.clock().ticks + chunk).min(until)).err();
     }
-    Ok(failure)
+    let stopped = failure.as_ref().is_some_and(|failure| failure.wrong == FailureKind::Stopped);
+    if stopped { Err(TooLong) } else { Ok(failure) }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
+    use jostle_engine::scene::Source;
 
     #[test]
     fn short_runs_are_repeated_whole_and_long_ones_in_part() {
@@ -113,5 +120,18 @@ mod tests {
         let long = 1e3 * FREE;
         assert_eq!(part(long, 0.0, 3.0), SHARE / 3.0);
         assert_eq!(part(WHOLE, 2.0 * FREE, 3.0), 0.0, "reading alone is too dear");
+    }
+
+    /// One tick lasts the whole run, with thousands of evaluations.
+    #[test]
+    fn a_finer_run_that_takes_long_ends_inside_a_tick() {
+        const SCENE: &str = "Scene(format: 1, clock: (duration: 20, tick: 20, method: Reference),
+            bodies: [(name: \"sun\", at: (0, 0), mass: 1e6, atoms: Disc(radius: 0.1)),
+                     (name: \"planet\", at: (1, 0), velocity: (0, 1), mass: 1, atoms: Disc(radius: 0.01))],
+            forces: [Spring(a: \"sun\", b: \"planet\", stiffness: 3)])";
+        let mut run = Simulation::load(&Source::new("orbit.ron", SCENE)).expect("a good scene");
+        let patience = Patience { evaluations: 100.0, expected: 100.0, time: None };
+        assert!(run_to_tick(&mut run, 1, Some(patience), |_| false).is_err());
+        assert!(evaluations(&run) < 200.0, "{} evaluations", evaluations(&run));
     }
 }

@@ -5,6 +5,7 @@
 //! large disc under a thousand grains does not make all cells as large as itself. It costs no more than the cells under
 //! it.
 
+use std::ops::Range;
 use std::sync::atomic::{AtomicUsize, Ordering};
 
 use glam::DVec2;
@@ -247,6 +248,9 @@ fn median(all: &[Entry], place: fn(&Entry) -> f64) -> f64 {
     *places.select_nth_unstable_by(middle, f64::total_cmp).1
 }
 
+/// A cell of more entries than this is looked at body by body. The lists that this needs cost as much as some dozens of comparisons.
+const CROWDED: usize = 64;
+
 #[inline]
 fn are_near(a: &Entry, b: &Entry) -> bool {
     let reach = a.reach + b.reach;
@@ -426,12 +430,50 @@ impl Cells {
             } else {
                 0..0
             };
+            if own.len() > CROWDED {
+                self.pairs_of_crowd(own, (beside, above), wanted, most, found);
+                continue;
+            }
             for index in own {
                 if found.len() > most {
                     return;
                 }
                 let entry = &self.entries[index];
                 for other in self.entries[index + 1..beside].iter().chain(&self.entries[above.clone()]) {
+                    if are_near(entry, other) && wanted(entry.body, other.body) {
+                        found.push(entry.with(other));
+                    }
+                }
+            }
+        }
+    }
+
+    /// The pairs of a cell of many entries: `own` with later ones up to `beside`, and with those `above`. Entries of one body follow
+    /// each other in a cell, and are passed over together. So a body whose atoms all lie at one place costs no square of their number.
+    fn pairs_of_crowd(
+        &self,
+        own: Range<usize>,
+        (beside, above): (usize, Range<usize>),
+        wanted: &impl Fn(u32, u32) -> bool,
+        most: usize,
+        found: &mut Vec<AtomPair>,
+    ) {
+        let runs = |entries: Range<usize>| {
+            let mut from = entries.start;
+            self.entries[entries].chunk_by(|a, b| a.body == b.body).map(move |run| {
+                from += run.len();
+                from - run.len()..from
+            })
+        };
+        let all: Vec<Range<usize>> = runs(own.start..beside).chain(runs(above)).collect();
+        for index in own {
+            let entry = &self.entries[index];
+            for run in all.iter().filter(|run| self.entries[run.start].body != entry.body) {
+                if found.len() > most {
+                    return;
+                }
+                // Those above lie in a later row, so all indices behind this one count.
+                for other in &self.entries[run.start.max(index + 1)..run.end.max(index + 1)] {
                     if are_near(entry, other) && wanted(entry.body, other.body) {
                         found.push(entry.with(other));
                     }
@@ -534,7 +576,9 @@ pub(super) mod tests {
 
     #[test]
     fn cells_find_what_a_sweep_finds() {
-        for (seed, count, side) in [(1, 300, 6.0), (2, 300, 60.0), (3, 2000, 12.0), (4, 7, 1.0), (5, 1, 1.0)] {
+        for (seed, count, side) in
+            [(1, 300, 6.0), (2, 300, 60.0), (3, 2000, 12.0), (4, 7, 1.0), (5, 1, 1.0), (6, 1500, 1.2)]
+        {
             let (mut bodies, mut bounds) = strewn(seed, count, side);
             if seed > 2 {
                 // One of them far away.
