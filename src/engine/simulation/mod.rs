@@ -298,10 +298,10 @@ impl Simulation {
         self.world.resource_mut::<State>().bypass_change_detection().ask_inside_ticks(goes_on);
     }
 
-    /// From now on the run ends inside a tick at the first step behind so many evaluations of forces in all. It ends with
-    /// [`FailureKind::Stopped`] and cannot be continued. From tick to tick nothing is counted.
-    pub fn end_after(&mut self, evaluations: u64) {
-        self.world.resource_mut::<State>().bypass_change_detection().end_after(evaluations);
+    /// From now on the run may take so much work more, in the unit of [`work_of_an_evaluation`](crate::tick::work_of_an_evaluation). Then
+    /// it ends at the next step inside a tick, with [`FailureKind::Stopped`], and cannot be continued. From tick to tick it does not end.
+    pub fn end_after(&mut self, work: f64) {
+        self.world.resource_mut::<State>().bypass_change_detection().end_after(work);
     }
 
     /// Runs until `tick` ticks are done in all; does nothing if they are.

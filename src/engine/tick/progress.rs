@@ -66,11 +66,20 @@ pub(super) struct Progress {
     /// Asked at each step inside a tick, with its time in s, whether the run goes on.
     #[serde(skip)]
     pub goes_on: Option<fn(f64) -> bool>,
-    /// Inside a tick the run ends after so many evaluations in all.
+    /// Inside a tick the run ends after so much work.
     #[serde(skip)]
-    pub most_evaluations: Option<u64>,
+    pub allowed: Option<AllowedWork>,
     /// The number of indicators of each model with events at the last call, in order.
     pub told: Vec<usize>,
+}
+
+/// The work that a run may take, in the unit of [`work_of_an_evaluation`](super::work_of_an_evaluation).
+#[derive(Clone, Copy, Debug)]
+pub(crate) struct AllowedWork {
+    pub most: f64,
+    pub done: f64,
+    /// Evaluations whose work is done.
+    pub counted: u64,
 }
 
 impl Progress {

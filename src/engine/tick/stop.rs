@@ -1,7 +1,8 @@
 //! The end of a run inside a tick, on request. A tick may take many steps, and a user does not wait for its end.
 
 use super::failure::{FailureKind, Trouble};
-use super::{State, Tick};
+use super::progress::AllowedWork;
+use super::{State, Tick, work_of_an_evaluation};
 use crate::world::finite;
 
 impl State {
@@ -11,10 +12,19 @@ impl State {
         self.progress.goes_on = Some(goes_on);
     }
 
-    /// From now on the run ends inside a tick, with [`FailureKind::Stopped`], at the first step behind so many evaluations in all. It
-    /// cannot be continued. From tick to tick nothing is counted.
-    pub fn end_after(&mut self, evaluations: u64) {
-        self.progress.most_evaluations = Some(evaluations);
+    /// From now on the run may take so much work more, in the unit of [`work_of_an_evaluation`]. Then it ends at the next step inside a
+    /// tick, with [`FailureKind::Stopped`], and cannot be continued. From tick to tick it does not end.
+    pub fn end_after(&mut self, work: f64) {
+        self.progress.allowed = Some(AllowedWork { most: work, done: 0.0, counted: self.evaluation.count });
+    }
+
+    /// Whether the run has taken more work than it may. Each evaluation since the last call counts as one of the present state.
+    fn has_spent(&mut self) -> bool {
+        let Some(AllowedWork { most, done, counted }) = self.progress.allowed else { return false };
+        let count = self.evaluation.count;
+        let done = done + count.saturating_sub(counted) as f64 * work_of_an_evaluation(self);
+        self.progress.allowed = Some(AllowedWork { most, done, counted: count });
+        done > most
     }
 
     /// The time in s that the run has reached. It is that of the last tick, or the moment inside one at which the run was ended.
@@ -33,9 +43,8 @@ impl Tick<'_> {
     /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended, or as failed if the present state
     /// is not finite.
     pub fn is_stopped(&mut self, time: f64) -> bool {
-        let progress = &self.state.progress;
-        let spent = progress.most_evaluations.is_some_and(|most| self.state.evaluation.count > most);
-        let stopped = spent || progress.goes_on.is_some_and(|goes_on| !goes_on(time));
+        let spent = self.state.has_spent();
+        let stopped = spent || self.state.progress.goes_on.is_some_and(|goes_on| !goes_on(time));
         if stopped {
             let state = &mut *self.state;
             state.bodies.catch_up();

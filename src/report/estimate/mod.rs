@@ -282,8 +282,7 @@ fn discretisation(
         ));
         return Ok(());
     }
-    let patience =
-        |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.work(), finer.dear()));
+    let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.work()));
     let (mut told, mut order) = (Told::default(), expected_order(simulation));
     let (motion, mut observed) = (run.sizes().0, None);
     if effort == Effort::Full {

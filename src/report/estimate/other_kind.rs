@@ -107,7 +107,7 @@ impl ByTicks<'_> {
         let Ok(mut other) = self.scene.again(self.simulation, plan, 1.0, &what) else { return Ok(None) };
         twins::watch_beside(&mut other, self.simulation, finer, self.until);
         let work = self.work * f64::from(ticks);
-        let patience = (!patient).then(|| Patience::of(self.simulation, self.part, work, 1.0));
+        let patience = (!patient).then(|| Patience::of(self.simulation, self.part, work));
         let ran = work::run_to_tick(&mut other, finer.tick(self.until), patience, |_| self.scene.is_interrupted());
         // A run from tick to tick misses a force between two ticks, which tells nothing of the first run.
         let tells = matches!(ran, Ok(None)) && !departs(&other);

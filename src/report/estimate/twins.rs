@@ -69,12 +69,6 @@ impl Finer {
         self.steps() * if self.located { EVALUATIONS } else { 1.0 }
     }
 
-    /// The work of its evaluation over that of the first run. Where events are located, each stage also tells indicators of all contacts,
-    /// with their bends. That was measured on boxes of discs.
-    pub fn dear(self) -> f64 {
-        if self.located { 5.0 } else { 1.0 }
-    }
-
     /// Whether a tick of the twin ends with tick `tick` of the first run.
     pub fn ends_with(self, tick: u64) -> bool {
         tick.is_multiple_of(u64::from(self.of))

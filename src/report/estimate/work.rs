@@ -55,20 +55,22 @@ fn part(work: f64, reading: f64, times: f64) -> f64 {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct Patience {
     evaluations: f64,
+    /// The same as work. Bodies that the first run kept apart may have many neighbours in a finer one.
+    work: f64,
     /// The expected evaluations.
     expected: f64,
     time: Option<Duration>,
 }
 
 impl Patience {
-    /// For a run that repeats a part of the first, with steps shorter by the factor `finer`. Each of its evaluations is `dear` times
-    /// as much work.
-    pub fn of(first: &Simulation, part: f64, finer: f64, dear: f64) -> Self {
+    /// For a run that repeats a part of the first, with steps shorter by the factor `finer`.
+    pub fn of(first: &Simulation, part: f64, finer: f64) -> Self {
         let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
         let time = first.state().has_force_systems().then(|| Duration::from_secs_f64(seconds));
         let expected = finer * part * evaluations(first);
-        let evaluations = EXCESS * (expected + FREE / (dear * per_evaluation(first)));
-        Self { evaluations, expected, time }
+        let evaluations = EXCESS * (expected + FREE / per_evaluation(first));
+        let work = evaluations * per_evaluation(first);
+        Self { evaluations, work, expected, time }
     }
 
     /// Whether a run, of which the share `done` is over, will take more than `times` the expected evaluations.
@@ -92,7 +94,7 @@ pub(super) fn run_to_tick(
     let (begin, chunk) = (Instant::now(), (until / CHUNKS).max(1));
     let mut failure: Option<Failure> = None;
     if let Some(most) = patience {
-        simulation.end_after(most.evaluations as u64);
+        simulation.end_after(most.work);
     }
     while failure.is_none() && simulation.clock().ticks < until {
         let done = simulation.clock().ticks as f64 / until as f64;
@@ -130,7 +132,7 @@ mod tests {
                      (name: \"planet\", at: (1, 0), velocity: (0, 1), mass: 1, atoms: Disc(radius: 0.01))],
             forces: [Spring(a: \"sun\", b: \"planet\", stiffness: 3)])";
         let mut run = Simulation::load(&Source::new("orbit.ron", SCENE)).expect("a good scene");
-        let patience = Patience { evaluations: 100.0, expected: 100.0, time: None };
+        let patience = Patience { evaluations: 100.0, work: 100.0, expected: 100.0, time: None };
         assert!(run_to_tick(&mut run, 1, Some(patience), |_| false).is_err());
         assert!(evaluations(&run) < 200.0, "{} evaluations", evaluations(&run));
     }
