@@ -1,6 +1,6 @@
-//! Law: a force in a straight line changes the speed by its impulse over the mass, `v = integral of F dt / m`, however short it acts.
-//! Triangular pulses of tens of nanoseconds lie between long steps of free flight. Their corners are so steep that a time next to a
-//! corner, as far away as its rounding, has a force which the long step before must not see.
+//! Law: a force in a straight line changes the speed by its impulse over the mass, however short it acts: `v = integral of F dt / m`.
+//! Triangular pulses of tens of nanoseconds lie between long steps of free flight. At a time that rounding puts beside a corner the
+//! force is another one. The long step before must not see it.
 
 use super::ran::end;
 use jostle::scene::Source;
@@ -42,7 +42,7 @@ fn pulses_of_nanoseconds_give_their_impulse() {
         let pulse = Pulse::of(at, width);
         let [begin, top, finish] = pulse.times;
         let law = pulse.impulse() / MASS;
-        // Stages lie at times that err by half a unit, and forces there by their slope, the peak in 0.4 of the width. The mean force is half
+        // Times of stages err by half a unit, and forces there by their slope: the peak in 0.4 of the width. The mean force is half
         // the peak. The weights of Dop853 have absolute values that add up to 13, and those of other methods to less.
         let bound = 13.0 * 0.5 * f64::EPSILON * finish / (0.4 * width) * 2.0 * law;
         for clock in clocks {
@@ -61,7 +61,7 @@ fn pulses_of_nanoseconds_give_their_impulse() {
     }
 }
 
-/// A pulse between two ticks is lost from tick to tick, and so is the way of a target whose rate a servo sees at ticks. The verdict
+/// A run from tick to tick loses a pulse between two ticks. A servo that sees the rate of its target at ticks loses its way. The verdict
 /// names the entry, also without a second run beside it, and also of a run that ends early.
 #[test]
 fn courses_of_controllers_between_ticks_are_named() {

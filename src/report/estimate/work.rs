@@ -83,8 +83,8 @@ impl Patience {
 #[derive(Clone, Copy, Debug)]
 pub(super) struct TooLong;
 
-/// Runs until the end of a tick, or until a failure, which is returned. A run that is `useless` goes no farther. Where a tick takes
-/// many steps, the run ends inside it.
+/// Runs until the end of a tick, or until a failure, which is returned. A run that is `useless` goes no farther. A run may end inside
+/// a tick of many steps.
 pub(super) fn run_to_tick(
     simulation: &mut Simulation,
     until: u64,
