@@ -10,6 +10,7 @@ use glam::DVec2;
 
 mod dead_ends;
 mod inner_looks;
+mod present;
 mod saved;
 
 use saved::Remembered;
@@ -171,30 +172,6 @@ impl EventStepper {
         self
     }
 
-    /// Adds the change of a step to the state, with compensation.
-    fn accept(&mut self) {
-        for ((state, rest), change) in self.state.iter_mut().zip(&mut self.rest).zip(&self.work.change) {
-            let step = change + *rest;
-            let after = *state + step;
-            *rest = step - (after - *state);
-            *state = after;
-        }
-    }
-
-    /// Takes the current state. The rounding remainder is kept if the state is the one that was left.
-    fn take_up(&mut self, flow: &mut WorldFlow) {
-        let before = std::mem::take(&mut self.state);
-        flow.read(&mut self.state);
-        self.rest.resize(self.state.len(), 0.0);
-        let same = |index: usize| before.get(index) == Some(&self.state[index]);
-        let accounts = flow.indices_of_accounts();
-        for index in 0..self.state.len() {
-            if !same(index) || accounts.contains(&index) {
-                self.rest[index] = 0.0;
-            }
-        }
-    }
-
     /// Makes a step with frozen modes from `from` towards `until` seconds, no further than to the first event. The state at
     /// its end is the present one, and evaluated. `None`: too many indicators vanish, or the run is to end. Then the state is the one of
     /// the beginning.
@@ -345,6 +322,9 @@ impl EventStepper {
         let share_of = |(time, values)| StageValues { share: (time - from) / length, values };
         let mut inside = Inside::of(indicators, &told, stages.into_iter().map(share_of).collect(), length);
         while let Some(next) = inside.next() {
+            if flow.tick.is_asked_to_end(from) {
+                return None;
+            }
             share = next;
             reach(flow, next, &mut told);
             inside.see(IndicatorSample { share: next, indicators: told.clone() });
@@ -359,6 +339,9 @@ impl EventStepper {
         if let Some(mut bracket) = bracket {
             let mut last = share;
             while let Some(next) = bracket.next() {
+                if flow.tick.is_asked_to_end(from) {
+                    return None;
+                }
                 last = next;
                 reach(flow, next, &mut told);
                 bracket.narrow(IndicatorSample { share: next, indicators: told.clone() });

@@ -40,11 +40,15 @@ impl State {
 }
 
 impl Tick<'_> {
-    /// Whether the run is to end at `time` seconds, inside this tick. Then it is noted as ended, or as failed if the present state
+    /// Whether the run is to end at `time` seconds, inside this tick. A trial from there on is then given up.
+    pub fn is_asked_to_end(&mut self, time: f64) -> bool {
+        self.state.has_spent() || self.state.progress.goes_on.is_some_and(|goes_on| !goes_on(time))
+    }
+
+    /// The same of the present state. Then it is noted as ended, or as failed if the present state
     /// is not finite.
     pub fn is_stopped(&mut self, time: f64) -> bool {
-        let spent = self.state.has_spent();
-        let stopped = spent || self.state.progress.goes_on.is_some_and(|goes_on| !goes_on(time));
+        let stopped = self.is_asked_to_end(time);
         if stopped {
             let state = &mut *self.state;
             state.bodies.catch_up();
