@@ -28,7 +28,7 @@ impl Kind for Scenes {
         let text = String::from_utf8_lossy(bytes);
         // In memory: a mutant names no file of this machine.
         let Some(ran) = read_and_run(&Source::new("mutant.ron", text.as_ref()), number) else { return };
-        if number.is_multiple_of(DRAWN) && ran.has_ticks() {
+        if number.is_multiple_of(DRAWN) && ran.is_to_be_drawn() {
             let scene = scratch.join("mutant.ron");
             std::fs::write(&scene, bytes).expect("the parent made the scratch folder");
             draw(&scene, &ran, number, scratch);
