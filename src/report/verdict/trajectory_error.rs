@@ -108,7 +108,10 @@ pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
             let remedy = "`--estimate`, which compares the whole run".to_owned();
             (VerdictPart::UnknownAfter(until), format!("{goes} so far, and was not run on"), Some(remedy))
         }
-        (false, _) => (VerdictPart::Places, format!("{goes}. At most one of these two runs is right"), None),
+        (false, _) => {
+            let remedy = Some(finer_to_compare(evidence));
+            (VerdictPart::Places, format!("{goes}. At most one of these two runs is right"), remedy)
+        }
     };
     Some(Cause { trust: Trust::ButNot(part), what, remedy })
 }
@@ -116,12 +119,30 @@ pub(super) fn contradicted(evidence: &Evidence) -> Option<Cause> {
 /// Bodies rest that go elsewhere in a finer run.
 pub(super) fn restless(evidence: &Evidence) -> Option<Cause> {
     let distance = evidence.world.get_resource::<EstimatedError>()?.restless?;
+    let touched = evidence.world.resource::<State>().deepest_overlap().in_share.between.is_some();
+    let why = if touched {
+        "Forces of contacts may hold them or not, and statics does not determine these forces"
+    } else {
+        "No contact holds them, so ticks may miss what moves them"
+    };
     let what = format!(
-        "bodies rest that go up to {} m in a run with finer steps. Forces of contacts may hold them or not, and statics does not \
-         determine these forces. At most one of these two runs is right",
+        "bodies rest that go up to {} m in a run with finer steps. {why}. At most one of these two runs is right",
         rough(distance)
     );
-    Some(Cause { trust: Trust::Not, what, remedy: None })
+    Some(Cause { trust: Trust::Not, what, remedy: Some(finer_to_compare(evidence)) })
+}
+
+/// Finer runs to compare this one with.
+fn finer_to_compare(evidence: &Evidence) -> String {
+    let card = evidence.card;
+    match card.tolerance() {
+        Some(tolerance) => format!("`--tolerance {}`, and places on which both runs agree", number(tolerance / 10.0)),
+        None => format!(
+            "`--tick {}`{}, and places on which both runs agree",
+            number(card.tick / 4.0),
+            evidence.or_tolerance()
+        ),
+    }
 }
 
 /// Stiffer contacts lead elsewhere.
