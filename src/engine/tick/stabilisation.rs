@@ -10,7 +10,7 @@ use super::failure::{FailureKind, Trouble};
 use super::stopwatch::TickPart;
 use super::{Ledger, Model, State};
 use crate::constraints::{DeadPoints, Gap, Row, RowKind, RowSide, Rows, Standing};
-use crate::world::Bodies;
+use crate::world::{Bodies, finite};
 use serde::{Deserialize, Serialize};
 
 /// The largest joint drift so far: the distance of a joint from its constraint after the projection.
@@ -171,6 +171,10 @@ impl State {
             false => 1.0,
         };
         let meters = gap.left * reach;
+        // A trial step that overflows is made again. If the run itself does, the end of the tick tells which number.
+        if (gap.failed || !meters.is_finite()) && finite::first_not_finite(&self.bodies).is_some() {
+            return;
+        }
         if meters > self.joint_drift.meters || gap.failed {
             self.joint_drift = JointDrift { meters, model: self.model_of(gap.row, time), time };
         }

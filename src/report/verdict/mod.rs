@@ -132,9 +132,9 @@ impl Evidence<'_> {
         }
         let deep = matches!(failure.wrong, FailureKind::Crossed(_) | FailureKind::Sunk(_));
         let known = [
+            ahead::overlaps_at_the_start,
             ticks::unstable,
             asked::otherwise,
-            ahead::overlaps_at_the_start,
             ahead::drag,
             near::attraction,
             far_places::rounding,
