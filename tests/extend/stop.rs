@@ -39,8 +39,8 @@ fn a_run_that_goes_on_ends_in_the_same_bits() {
     assert_eq!(plain.card().hash, asked.card().hash);
 }
 
-/// Without neighbours the work of each evaluation stays the same. A step of `Reference` takes fewer evaluations than this, with those
-/// that begin it.
+/// Without neighbours the work of each evaluation stays the same. A step of `Reference` has 16 evaluations at most, and is
+/// tried again with fewer: four tries.
 const PER_STEP: f64 = 64.0;
 
 #[test]

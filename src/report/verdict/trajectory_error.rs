@@ -135,14 +135,13 @@ pub(super) fn restless(evidence: &Evidence) -> Option<Cause> {
 /// Finer runs to compare this one with.
 fn finer_to_compare(evidence: &Evidence) -> String {
     let card = evidence.card;
-    match card.tolerance() {
-        Some(tolerance) => format!("`--tolerance {}`, and places on which both runs agree", number(tolerance / 10.0)),
-        None => format!(
-            "`--tick {}`{}, and places on which both runs agree",
-            number(card.tick / 4.0),
-            evidence.or_tolerance()
-        ),
-    }
+    let option = match card.tolerance() {
+        Some(tolerance) => format!("`--tolerance {}`", number(tolerance / 10.0)),
+        None if card.by_ticks() => format!("`--tick {}`{}", number(card.tick / 4.0), evidence.or_tolerance()),
+        // `Reference` has no finer steps, and its ticks are frames.
+        None => "`--tolerance 1e-8`".to_owned(),
+    };
+    format!("{option}, and places on which both runs agree")
 }
 
 /// Stiffer contacts lead elsewhere.
