@@ -113,3 +113,25 @@ fn a_wall_with_all_bodies_behind_it_is_told_to_be_turned() {
         assert_eq!(verdict.contains("the points of `floor` in the other order"), turned, "{verdict}");
     }
 }
+
+/// Bodies with one centre have no direction in which contacts push, so places become NaN. No joint is blamed for that: the overlap is named.
+#[test]
+fn bodies_in_each_other_are_named_and_not_their_joints() {
+    for clock in ["method: Dop853, tick: 1e-3", "method: Dop853, tick: 0.02", "method: RungeKutta4, tick: 5e-3"] {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 1, {clock}), gravity: (0, -9.81), contacts: Penalty(tangential: Exact),
+                materials: {{ \"m\": (friction: (static: 0.5, dynamic: 0.3), restitution: 0) }},
+                walls: [(name: \"f\", left: (20, 0), right: (-20, 0), material: \"m\")],
+                bodies: [(name: \"c\", at: (0, 0.1), mass: 1, inertia: 0.01, atoms: Disc(radius: 0.02)),
+                         (name: \"h\", at: (0, 0.1), mass: 0.5, inertia: 0.005, atoms: Disc(radius: 0.02)),
+                         (name: \"w\", at: (0, 0.1), mass: 1, atoms: Disc(radius: 0.1), material: \"m\")],
+                joints: [Prismatic(name: \"p\", a: World, b: \"c\", axis: (1, 0)),
+                         Prismatic(name: \"q\", a: \"c\", b: \"h\", axis: (0, 1)), Revolute(name: \"r\", a: \"h\", b: \"w\", friction: 0.02)])"
+        );
+        let mut simulation = Simulation::load(&Source::new("joints.ron", text)).unwrap();
+        simulation.run_to_end().unwrap_err();
+        let verdict = simulation.card().verdict;
+        assert!(verdict.contains("`c` and `w` overlap at the start"), "{clock}: {verdict}");
+        assert!(!verdict.contains("does not close"), "{clock}: {verdict}");
+    }
+}

@@ -288,7 +288,7 @@ impl Model for ServoForce {
     fn departures(&self, state: &State, mode: EvaluationMode) -> Vec<Departure> {
         let course = self.target.course().filter(|_| self.sampling.is_none());
         let path = &self.output.path;
-        let of_place = course.and_then(|course| course.departure(path, state, mode));
+        let of_place = course.and_then(|course| course.departure_of_target(path, state, mode));
         let of_rate = course.filter(|_| self.gains[2] != 0.0);
         let of_rate = of_rate.and_then(|course| course.departure_of_rate(path, state, mode));
         of_place.into_iter().chain(of_rate).collect()

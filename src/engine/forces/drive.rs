@@ -257,8 +257,17 @@ impl Course {
 
     /// The effect on an impulse of points between two ticks, for the entry at `path`.
     pub(crate) fn departure(&self, path: &str, state: &State, mode: EvaluationMode) -> Option<Departure> {
+        self.departure_of(path, "impulse", state, mode)
+    }
+
+    /// The same for the sum of a target over time.
+    pub(crate) fn departure_of_target(&self, path: &str, state: &State, mode: EvaluationMode) -> Option<Departure> {
+        self.departure_of(path, "target", state, mode)
+    }
+
+    fn departure_of(&self, path: &str, effect: &str, state: &State, mode: EvaluationMode) -> Option<Departure> {
         let shares = self.lost_and_gained(&clock_of_whole_ticks(state, mode)?)?;
-        departure(path, "impulse", shares)
+        departure(path, effect, shares)
     }
 
     /// The effect of points between two ticks on the way of a target, whose rate counts at ticks only.
