@@ -21,13 +21,13 @@ use jostle::{Simulation, SimulationExt};
 pub(super) const GRAVITY: f64 = 9.81;
 
 /// The default, and two ways with located events.
-fn ways() -> [(&'static str, Overrides); 3] {
+pub(super) fn ways() -> [(&'static str, Overrides); 3] {
     let located = Overrides { method: Some("Dop853".to_owned()), tick: Some(1e-3), ..Overrides::default() };
     let tolerance = Overrides { tolerance: Some(1e-6), ..Overrides::default() };
     [("default", Overrides::default()), ("Dop853", located), ("tolerance 1e-6", tolerance)]
 }
 
-fn load(text: &str, overrides: &Overrides) -> Simulation {
+pub(super) fn load(text: &str, overrides: &Overrides) -> Simulation {
     Simulation::load_with(&Source::new("start.ron", text), overrides, |_| {}).unwrap_or_else(|e| panic!("{e}\n{text}"))
 }
 

@@ -35,6 +35,7 @@ mod reading_cost;
 mod releases;
 mod short_slides;
 mod soft_contacts;
+mod springs_at_the_start;
 mod statements;
 mod stops_together;
 mod supports_that_start;

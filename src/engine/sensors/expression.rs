@@ -42,6 +42,8 @@ struct Expression {
 struct Expressions {
     list: Vec<Asked>,
     places: BTreeMap<String, usize>,
+    /// Places of those whose channels are looked for. A channel that leads back to one of them does not exist.
+    open: BTreeSet<usize>,
     /// The words for quantities, for messages.
     words: Vec<&'static str>,
     /// The values so far while several channels of one moment are read together.
@@ -178,7 +180,10 @@ fn make(world: &mut World, root: usize, making: &mut Making) -> Result<(), Mista
             }
             None => {
                 let index = *index;
-                match made(world, index, making) {
+                world.resource_mut::<Expressions>().open.insert(index);
+                let made = made(world, index, making);
+                world.resource_mut::<Expressions>().open.remove(&index);
+                match made {
                     Ok(made) => world.resource_mut::<Expressions>().list[index].made = Some(made),
                     Err(mistake) => {
                         making.failed.insert(index, mistake);
@@ -317,7 +322,11 @@ fn kept(symbol: Cow<'static, str>) -> &'static str {
 }
 
 fn find_own(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
-    let index = *world.get_resource::<Expressions>()?.places.get(owner).filter(|_| quantity == QUANTITY)?;
+    let expressions = world.get_resource::<Expressions>()?;
+    let index = *expressions.places.get(owner).filter(|_| quantity == QUANTITY)?;
+    if expressions.open.contains(&index) {
+        return None;
+    }
     make(world, index, &mut Making::default()).ok()?;
     let unit = world.resource::<Expressions>().list[index].made.as_ref()?.unit;
     let read = move |world: &World| {

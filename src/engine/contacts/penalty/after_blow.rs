@@ -14,7 +14,8 @@ fn turns(geometry: &PairGeometry, rounding: f64) -> bool {
 impl View<'_> {
     /// Lets go of what is held and moves after a jump of velocities.
     pub fn come_loose_by_blow(&mut self) {
-        let moving: Vec<usize> = (0..self.len()).filter(|&index| self.moves_though_held(index)).collect();
+        let mut moving = self.touching();
+        moving.retain(|&index| self.moves_though_held(index));
         if moving.is_empty() {
             return;
         }
@@ -34,7 +35,7 @@ impl View<'_> {
         let turns = turns(&geometry, rounding);
         let (contact, law, roller) = self.whole(index, &geometry);
         let parts = contact.mode == Mode::Hold && geometry.parting().abs() > rounding;
-        let grips = contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold;
+        let grips = contact.tangential.grip == Grip::Hold;
         let slides = grips && law.tangential().acts() && geometry.sliding(law.shares()).abs() > rounding;
         let rolls = turns && roller.is_some_and(|(slider, _)| slider.grip == Grip::Hold);
         parts || slides || rolls

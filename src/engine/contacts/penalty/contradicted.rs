@@ -24,12 +24,11 @@ impl View<'_> {
         if self.contacts.contradicted.is_some() {
             return;
         }
-        let gripped: Vec<usize> = (0..self.len())
-            .filter(|index| {
-                let (contact, law) = self.contact(*index);
-                law.exact && contact.mode == Mode::Hold && contact.tangential.grip == Grip::Hold
-            })
-            .collect();
+        let mut gripped = self.touching();
+        gripped.retain(|index| {
+            let (contact, law) = self.contact(*index);
+            law.exact && contact.mode == Mode::Hold && contact.tangential.grip == Grip::Hold
+        });
         if gripped.is_empty() {
             return;
         }

@@ -2,7 +2,8 @@
 //! springs that touch ([`crate::constraints::spring_network`]). Friction and rolling resistance are springs too. Beyond their cones they
 //! slip, and keep the force of the cone (return mapping, Simo and Hughes 1998).
 //!
-//! If nothing holds bodies in some direction, they accelerate along it, and springs bear the rest. Friction that slips then has the
+//! If no contact holds bodies in some direction, they accelerate along it, and springs bear the rest. A spring of the scene holds no
+//! body in place: one that is drawn at the start moves its body from there. Friction that slips then has the
 //! dynamic coefficient. It slips along the acceleration, or it sticks again.
 //!
 //! The first round takes all that touches as held, because no force says yet what opens or slips. Each later round takes the
@@ -247,7 +248,7 @@ impl Search {
         let steady: Vec<NetworkSpring> = self.springs.iter().flat_map(|spring| of_scene(spring, index)).collect();
         let network = |parts: &[Part], all: bool| -> Vec<NetworkSpring> {
             let touching = parts.iter().zip(&springs).filter(|(part, _)| part.now.closed);
-            touching.flat_map(|(part, springs)| part.holding(springs, all)).chain(steady.iter().copied()).collect()
+            touching.flat_map(|(part, springs)| part.holding(springs, all)).collect()
         };
         let lacks = |force: &Twist, body: usize| force.linear.length().max(force.angular.abs() / extent(body));
         let balances = |forces: &[Twist], left_before: &mut f64| {
@@ -265,7 +266,12 @@ impl Search {
             if balances(&forces, &mut island.left) {
                 return island.end(first, self.set_valued, bodies);
             }
+            // Contacts decide whether a body is held. Then springs of the scene take their share of the loads.
             found = spring_network::solve(&held, &forces, &mut self.work);
+            if found.is_ok() && !steady.is_empty() {
+                let with_scene: Vec<_> = held.iter().chain(&steady).copied().collect();
+                found = spring_network::solve(&with_scene, &forces, &mut self.work);
+            }
             let all = network(parts, true);
             if found == Err(Unsolved::Free) && held.len() < all.len() && island.retries < RETRIES {
                 island.retries += 1;

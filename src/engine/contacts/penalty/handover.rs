@@ -56,12 +56,9 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, mode: EvaluationMode, d
         return;
     }
     view.contacts.held_before = Some(view.stored(|_| true));
-    for index in 0..view.len() {
+    for index in view.touching() {
         let (geometry, bodies) = (view.look(index), view.bodies);
         let (mut contact, law, roller) = view.whole(index, &geometry);
-        if contact.mode == Mode::Open {
-            continue;
-        }
         let rounding = ROUNDING * contact.normal_force * dt * geometry.approach(bodies).mobility;
         contact.take_over::<N>(law, &geometry, rounding);
         if let Some((slider, rolling_law)) = roller {

@@ -57,12 +57,12 @@ impl View<'_> {
     /// Springs that stand begin to swing with the forces of the modes that were found. Only beside a normal force that is held does
     /// the end of a swing count.
     fn direct_springs(&mut self) {
-        for index in 0..self.len() {
-            let (geometry, bodies) = (self.look(index), self.bodies);
-            let (mut contact, law, roller) = self.whole(index, &geometry);
-            if contact.mode != Mode::Hold {
+        for index in self.touching() {
+            if self.contact(index).0.mode != Mode::Hold {
                 continue;
             }
+            let (geometry, bodies) = (self.look(index), self.bodies);
+            let (mut contact, law, roller) = self.whole(index, &geometry);
             if law.tangential().acts() {
                 contact.tangential.direct(&SliderMotion::along(&geometry, law.shares(), bodies));
             }
@@ -75,12 +75,12 @@ impl View<'_> {
     /// Lets friction slide that holds beyond its cone, if a normal force leaves its bounds. A friction without a bound makes normal
     /// forces that the real one does not. So its cone follows from a force within the bounds. Says whether there was any.
     fn settle_held_friction<N: NormalForce>(&mut self) -> bool {
-        if !(0..self.len()).any(|index| self.is_out_of_band::<N>(index)) {
+        if !self.touching().into_iter().any(|index| self.is_out_of_band::<N>(index)) {
             return false;
         }
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
-        for index in 0..self.len() {
+        for index in self.touching() {
             let (mut contact, law) = self.contact(index);
             if contact.mode == Mode::Hold && contact.tangential.grip == Grip::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
@@ -105,7 +105,7 @@ impl View<'_> {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
         let mut released = std::mem::take(&mut self.contacts.released);
-        for index in 0..self.len() {
+        for index in self.touching() {
             let (mut contact, law) = self.contact(index);
             let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
             let (is_below, is_above) = (contact.normal_force < least, contact.normal_force > greatest);
@@ -157,13 +157,13 @@ impl View<'_> {
     /// Lets go of contacts that no force holds, once all that hold are within their bounds. Says whether there were any.
     fn settle_unheld(&mut self) -> bool {
         let mut corrected = false;
-        for index in 0..self.len() {
+        for index in self.touching() {
+            if self.contact(index).0.mode != Mode::Hold {
+                continue;
+            }
             let (geometry, bodies) = (self.look(index), self.bodies);
-            let (contact, law) = self.contact(index);
-            let mode = Some(contact.mode).filter(|mode| *mode == Mode::Hold);
-            let mode = mode.and_then(|_| moves_on(law, &geometry, bodies));
-            drop(contact);
-            if let Some(mode) = mode {
+            let law = self.contact(index).1;
+            if let Some(mode) = moves_on(law, &geometry, bodies) {
                 let before = self.contacts.before.get(index).copied().unwrap_or_default();
                 self.release(index, mode, before);
                 corrected = true;
@@ -176,7 +176,7 @@ impl View<'_> {
     /// Those tried as held at this moment come first: without them, the others may hold.
     fn settle_contradictions(&mut self, rows: &Rows) -> bool {
         let holds = |slider: &Slider| slider.grip == Grip::Hold;
-        let some_hold = (0..self.len()).any(|index| {
+        let some_hold = self.touching().into_iter().any(|index| {
             let geometry = self.look(index);
             let (contact, _, roller) = self.whole(index, &geometry);
             holds(&contact.tangential) || roller.is_some_and(|(slider, _)| holds(slider))
@@ -191,7 +191,7 @@ impl View<'_> {
     /// The greatest acceleration in m/s2 that a normal force alone would make.
     pub(super) fn greatest_load(&mut self) -> f64 {
         let mut greatest = 0.0_f64;
-        for index in 0..self.len() {
+        for index in self.touching() {
             let mobility = self.look(index).approach(self.bodies).mobility;
             greatest = greatest.max(mobility * self.contact(index).0.normal_force.abs());
         }
@@ -202,7 +202,7 @@ impl View<'_> {
     fn swing_among(&mut self, reached: &[usize], tried: bool) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
-        for index in 0..self.len() {
+        for index in self.touching() {
             if !self.movable(index).any(|body| reached.contains(&body)) {
                 continue;
             }
@@ -260,7 +260,7 @@ impl View<'_> {
     fn settle_friction<N: NormalForce>(&mut self, which: impl Fn(Grip) -> bool) -> bool {
         let mut corrected = false;
         let springs = std::mem::take(&mut self.contacts.before);
-        for index in 0..self.len() {
+        for index in self.touching() {
             let before = springs.get(index).copied().unwrap_or_default();
             let (geometry, bodies) = (self.look(index), self.bodies);
             let (mut contact, law, roller) = self.whole(index, &geometry);

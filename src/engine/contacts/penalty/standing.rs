@@ -46,7 +46,7 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
     let mut first = 0;
     while let Some(&body) = reached.get(first) {
         first += 1;
-        for index in 0..view.len() {
+        for index in view.touching() {
             if !view.movable(index).any(|other| other == body) {
                 continue;
             }
@@ -89,6 +89,12 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
         let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
         is_still::<N>(contact, law, geometry) && geometry.parting_rate(law.shares(), bodies).abs() <= STANDS * pushed
     };
+    let count = atoms.len();
+    let touches = |index: usize| match index.checked_sub(count) {
+        Some(surface) => surface < surfaces.len() && surfaces.is_touching(surface),
+        None => atoms.is_touching(index),
+    };
+    released.retain(|&released| touches(released as usize));
     let mut some = false;
     let mut hold = |index: usize, contact: &Contact, geometry: &PairGeometry| {
         let waits = released.contains(&(index as u32));
@@ -99,13 +105,14 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
         some |= holds;
         holds
     };
-    for (index, &pair) in pairs.atoms.iter().enumerate().take(atoms.len()) {
-        if hold(index, &atoms.get(index), &PairGeometry::atoms(bodies, index, pair)) {
+    for index in atoms.touching().collect::<Vec<_>>() {
+        let geometry = PairGeometry::atoms(bodies, index, pairs.atoms[index]);
+        if hold(index, &atoms.get(index), &geometry) {
             atoms.edit(index).mode = Mode::Hold;
         }
     }
-    for (index, &pair) in pairs.surfaces.iter().enumerate().take(surfaces.len()) {
-        let geometry = PairGeometry::surface(bodies, index, pair);
+    for index in surfaces.touching().collect::<Vec<_>>() {
+        let geometry = PairGeometry::surface(bodies, index, pairs.surfaces[index]);
         if hold(atoms.len() + index, &surfaces.get(index), &geometry) {
             surfaces.edit(index).mode = Mode::Hold;
         }

@@ -68,6 +68,13 @@ impl View<'_> {
         self.contacts.atoms.len() + self.contacts.surfaces.len()
     }
 
+    /// The indices of the contacts that touch, in order.
+    pub fn touching(&self) -> Vec<usize> {
+        let PenaltyContacts { atoms, surfaces, .. } = &*self.contacts;
+        let count = atoms.len();
+        atoms.touching().chain(surfaces.touching().map(|index| count + index)).collect()
+    }
+
     pub fn look(&self, index: usize) -> PairGeometry {
         let atoms = self.contacts.atoms.len();
         match index.checked_sub(atoms) {
@@ -96,7 +103,9 @@ impl View<'_> {
 
 /// Contacts whose tangential spring has an elongation that is state.
 fn springs(contacts: &PenaltyContacts) -> impl Iterator<Item = Contact> {
-    contacts.atoms.iter().chain(contacts.surfaces.iter()).filter(|contact| is_spring(contact, &contacts.laws))
+    let PenaltyContacts { atoms, surfaces, laws, .. } = contacts;
+    let touching = [atoms, surfaces].into_iter().flat_map(|list| list.touching().map(|index| list.get(index)));
+    touching.filter(|contact| is_spring(contact, laws))
 }
 
 fn is_spring(contact: &Contact, laws: &LawTable) -> bool {
@@ -128,7 +137,7 @@ pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
     let PenaltyContacts { atoms, surfaces, laws, .. } = contacts;
     let mut states = state.iter();
     for list in [atoms, surfaces] {
-        for index in 0..list.len() {
+        for index in list.touching().collect::<Vec<_>>() {
             if is_spring(&list.get(index), laws)
                 && let Some(&state) = states.next()
             {
@@ -286,15 +295,16 @@ impl View<'_> {
     pub(super) fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
-        for index in 0..self.len() {
+        before.resize(self.len(), [None, None]);
+        for index in self.touching() {
             let geometry = self.look(index);
             let (contact, law, roller) = self.whole(index, &geometry);
             let noted = |slider: &Slider| match (contact.mode, slider.grip) {
-                (Mode::Open, _) | (Mode::Hold, Grip::Slide) | (_, Grip::Slip) => None,
+                (Mode::Hold, Grip::Slide) | (_, Grip::Slip) => None,
                 _ => Some(*slider),
             };
             let tangential = if law.exact { None } else { noted(&contact.tangential) };
-            before.push([tangential, roller.and_then(|(slider, _)| noted(slider))]);
+            before[index] = [tangential, roller.and_then(|(slider, _)| noted(slider))];
         }
         self.contacts.before = before;
     }
@@ -319,11 +329,9 @@ impl View<'_> {
         let mut begun: Vec<_> = touched.into_iter().map(|index| between(self, index)).collect();
         begun.sort_unstable();
         begun.dedup();
-        for index in 0..if begun.is_empty() { 0 } else { self.len() } {
-            if self.contact(index).0.mode != Mode::Open {
-                let pair = between(self, index);
-                begun.retain(|other| *other != pair);
-            }
+        for index in if begun.is_empty() { Vec::new() } else { self.touching() } {
+            let pair = between(self, index);
+            begun.retain(|other| *other != pair);
         }
         for (is_wall, a, b) in begun {
             if is_wall { touches.wall_begins(a, b as u32) } else { touches.bodies_begin(a, b) }
@@ -333,11 +341,8 @@ impl View<'_> {
     /// Energy in J of those tangential and rolling springs whose grip is asked for.
     pub fn stored(&mut self, which: impl Fn(Grip) -> bool) -> f64 {
         let mut sum = 0.0;
-        for index in 0..self.len() {
+        for index in self.touching() {
             let (contact, law) = self.contact(index);
-            if contact.mode == Mode::Open {
-                continue;
-            }
             if which(contact.tangential.grip) {
                 sum += contact.tangential.energy(&law.tangential());
             }
@@ -453,10 +458,7 @@ pub(super) fn stand_still(
 
 impl View<'_> {
     fn note_overlaps(&mut self, time: f64, deepest: &mut DeepestOverlap) {
-        for index in 0..self.len() {
-            if self.contact(index).0.mode == Mode::Open {
-                continue;
-            }
+        for index in self.touching() {
             let geometry = self.look(index);
             let size = match index.checked_sub(self.contacts.atoms.len()) {
                 Some(surface) => self.pairs.surfaces[surface].size(self.bodies),

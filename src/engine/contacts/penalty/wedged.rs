@@ -52,7 +52,7 @@ impl View<'_> {
     /// bounces.
     fn wedges(&mut self, body: usize) -> Option<f64> {
         let (mut first, mut gives, mut wedged) = (None, 0.0, false);
-        for index in 0..self.len() {
+        for index in self.touching() {
             if !self.movable(index).any(|other| other == body) {
                 continue;
             }
