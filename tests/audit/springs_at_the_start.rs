@@ -1,7 +1,7 @@
-//! Law: a spring that is drawn at the start moves its body from there, also one that stands on a floor. Source: a body of mass `m` on
+//! Law: a spring that is drawn at the start moves its body from there. The body may stand on a floor. Source: a body of mass `m` on
 //! a spring `k` that is drawn by `d` swings by `d (1 - cos w t)`. Here `w^2 = k/m` for a box without friction, and `2 k/(3 m)` for a disc
-//! that rolls. With friction a box slides from `k d > mu_s m g` on, by `2 (k d - mu_d m g)/k`, and stays there if the spring then pulls
-//! with less than `mu_s m g`. A plate on a spring goes down by `(m + M) g/k (1 - cos w t)` under a box.
+//! that rolls. With friction a box slides if `k d > mu_s m g`. It slides by `2 (k d - mu_d m g)/k`. There it stays if the spring
+//! pulls with less than `mu_s m g`. A plate on a spring goes down by `(m + M) g/k (1 - cos w t)` under a box.
 //!
 //! Tolerance: contacts give by `m g/k_n` across and by `mu m g/k_t` along. Each law is right to a few of these ways, beside the error of
 //! velocity Verlet in the default run.
@@ -38,7 +38,7 @@ fn way(text: &str, begin: DVec2, overrides: &Overrides) -> DVec2 {
     simulation.bodies().position[0] - begin
 }
 
-/// The error of the default run is that of its tick, as its estimate says: some 1e-3 m behind a slip.
+/// The error of the default run is that of its tick. Its estimate says some 1e-3 m behind a slip.
 fn allowed(name: &str) -> f64 {
     if name == "default" { 2e-3 } else { 10.0 * GIVES }
 }

@@ -2,9 +2,9 @@
 //! springs that touch ([`crate::constraints::spring_network`]). Friction and rolling resistance are springs too. Beyond their cones they
 //! slip, and keep the force of the cone (return mapping, Simo and Hughes 1998).
 //!
-//! If no contact holds bodies in some direction, they accelerate along it, and springs bear the rest. A spring of the scene holds no
-//! body in place: one that is drawn at the start moves its body from there. Friction that slips then has the
-//! dynamic coefficient. It slips along the acceleration, or it sticks again.
+//! If no contact holds bodies in some direction, they accelerate along it, and springs bear the rest. Springs of the scene hold no
+//! body in place. If one is drawn at the start, its body moves from there. Friction that slips then has the dynamic coefficient. It
+//! slips along the acceleration, or it sticks again.
 //!
 //! The first round takes all that touches as held, because no force says yet what opens or slips. Each later round takes the
 //! contacts that are compressed and the friction that holds. Work and rounds are bounded.

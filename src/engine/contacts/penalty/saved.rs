@@ -15,13 +15,14 @@ pub(super) fn demand_fit<N: NormalForce>(own: &PenaltyState, state: &State) -> R
     let laws = contacts.laws.len();
     let (atoms, surfaces) = (&contacts.atoms, &contacts.surfaces);
     demand(atoms.fits(laws, bodies.len()) && surfaces.fits(laws, bodies.len()), "the lists of contacts")?;
-    // Contacts are those of the present pairs, or of the pairs before.
+    // Contacts are those of the present pairs, or of the pairs before. Later pairs must not get the version of contacts that are there.
     let carried = |before: &[u32], len: usize| before.iter().all(|&before| before == NEW || (before as usize) < len);
     let belong = |version: u64, atoms: usize, surfaces: usize| {
         if version == pairs.version {
             atoms == pairs.atoms.len() && surfaces == pairs.surfaces.len()
         } else {
-            carried(&pairs.atoms_before, atoms) && carried(&pairs.surfaces_before, surfaces)
+            let carries = carried(&pairs.atoms_before, atoms) && carried(&pairs.surfaces_before, surfaces);
+            version < pairs.version && carries
         }
     };
     demand(belong(contacts.version, atoms.len(), surfaces.len()), "the numbers of contacts")?;
