@@ -81,30 +81,42 @@ impl Meetings {
                 }
             }
         }
-        for (block, soonest) in self.blocks.iter_mut().enumerate() {
-            let touching = list.phases[block].touching();
-            if touching == 0 && !soonest.has_come(bodies) {
-                continue;
+        let now = Meeting { tick: bodies.flights.ticks(), path: bodies.path };
+        for block in 0..self.blocks.len() {
+            if list.phases[block].touching() != 0 || self.blocks[block].has_come(now) {
+                self.look_again(bodies, pairs, (list, records), (block, now));
             }
-            *soonest = Meeting::NEVER;
-            let mut looked_at = 0;
-            let first = BLOCK * block;
-            let last = pairs.len().min(first + BLOCK);
-            for (lane, (pair, meeting)) in pairs[first..last].iter().zip(&mut self.pairs[first..last]).enumerate() {
-                let touches = touching >> lane & 1 != 0;
-                if touches || meeting.has_come(bodies) {
-                    let sides = [side(bodies, pair.a), side(bodies, pair.b)];
-                    let indices = list.pairs.side(block).get(lane);
-                    (records[indices.0 as usize], records[indices.1 as usize]) = (sides[0].0, sides[1].0);
-                    let next = next_meeting(bodies, sides);
-                    *meeting = next.filter(|_| !touches).unwrap_or(Meeting::NOW);
-                    looked_at |= u8::from(*meeting == Meeting::NOW) << lane;
-                }
-                *soonest = soonest.or(*meeting);
-            }
-            list.look_at(block, looked_at);
         }
         true
+    }
+
+    /// Finds anew when the pairs of a block may touch. Not inlined: the loop over blocks that wait stays short.
+    #[inline(never)]
+    fn look_again(
+        &mut self,
+        bodies: &Bodies,
+        pairs: &[AtomPair],
+        (list, records): (&mut ContactList, &mut [Record]),
+        (block, now): (usize, Meeting),
+    ) {
+        let touching = list.phases[block].touching();
+        let (mut soonest, mut looked_at) = (Meeting::NEVER, 0);
+        let first = BLOCK * block;
+        let last = pairs.len().min(first + BLOCK);
+        for (lane, (pair, meeting)) in pairs[first..last].iter().zip(&mut self.pairs[first..last]).enumerate() {
+            let touches = touching >> lane & 1 != 0;
+            if touches || meeting.has_come(now) {
+                let sides = [side(bodies, pair.a), side(bodies, pair.b)];
+                let indices = list.pairs.side(block).get(lane);
+                (records[indices.0 as usize], records[indices.1 as usize]) = (sides[0].0, sides[1].0);
+                let next = next_meeting(bodies, sides);
+                *meeting = next.filter(|_| !touches).unwrap_or(Meeting::NOW);
+                looked_at |= u8::from(*meeting == Meeting::NOW) << lane;
+            }
+            soonest = soonest.or(*meeting);
+        }
+        self.blocks[block] = soonest;
+        list.look_at(block, looked_at);
     }
 
     fn begin(&mut self, bodies: usize, pairs: &[AtomPair]) {
@@ -143,8 +155,8 @@ impl Meeting {
     const NEVER: Self = Self { tick: u32::MAX, path: f64::INFINITY };
 
     #[inline]
-    fn has_come(self, bodies: &Bodies) -> bool {
-        bodies.flights.ticks() >= self.tick || bodies.path >= self.path
+    fn has_come(self, now: Self) -> bool {
+        now.tick >= self.tick || now.path >= self.path
     }
 
     fn or(self, other: Self) -> Self {
