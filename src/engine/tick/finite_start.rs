@@ -1,0 +1,39 @@
+//! Scenes that begin with NaN or infinity. They are refused before the first tick, with the part of the scene that overflows.
+
+use bevy_ecs::prelude::*;
+
+use super::{LoadErrors, Model, State};
+use crate::scene::SceneError;
+use crate::world::{Name, finite};
+
+const HELP: &str =
+    "numbers beyond 1e308 overflow. Look for enormous distances, sizes, speeds, masses, stiffnesses or fields";
+
+/// Reports the first body, or else the first model, whose state or energy is NaN or infinite. Mistakes found before may be the
+/// cause, so it adds nothing to them.
+pub(crate) fn refuse_not_finite(world: &mut World) {
+    if world.get_resource::<LoadErrors>().is_some_and(|errors| !errors.0.is_empty()) {
+        return;
+    }
+    let state = world.resource::<State>();
+    let (path, message) = if let Some((body, quantity)) = finite::first_not_finite(state.bodies()) {
+        let name = world.get::<Name>(state.bodies().entity[body]).map(Name::to_string).unwrap_or_default();
+        ("bodies", format!("the {quantity} of `{name}` is infinite or NaN at the start"))
+    } else if let Some(model) = state.models().find(|model| !holds_finite_energy(*model, state)) {
+        let name = model.name().rsplit("::").next().unwrap_or_default();
+        (section_of(model.name()), format!("the energy of `{name}` is infinite or NaN at the start"))
+    } else {
+        return;
+    };
+    world.get_resource_or_init::<LoadErrors>().0.push(SceneError::new(path, message).with_help(HELP));
+}
+
+fn holds_finite_energy(model: &dyn Model, state: &State) -> bool {
+    let energies = model.energies(state);
+    (energies.potential + energies.elastic).is_finite()
+}
+
+/// The section of the scene from which a model comes: the folder of its type has the same name.
+fn section_of(type_name: &str) -> &str {
+    type_name.split("::").nth(1).filter(|folder| ["forces", "joints", "contacts"].contains(folder)).unwrap_or("bodies")
+}
