@@ -6,7 +6,7 @@
 //! not along its row.
 
 use super::block_cholesky::BlockCholesky;
-use super::redundant::{self, Share};
+use super::redundant::{Equations, Share};
 use super::row::Row;
 use crate::world::Bodies;
 
@@ -28,7 +28,6 @@ pub(super) struct Borders {
     /// `D - C A^-1 B`, island by island.
     matrix: Vec<f64>,
     answer: Vec<f64>,
-    work: Vec<f64>,
 }
 
 impl Borders {
@@ -84,7 +83,7 @@ impl Borders {
         bodies: &Bodies,
         shares: impl Fn(&Row) -> Share,
         values: &mut [f64],
-        joint_answer: &mut [f64],
+        (joint_answer, equations): (&mut [f64], &mut Equations),
     ) {
         let (mut columns, mut matrix) = (self.columns.as_slice(), self.matrix.as_slice());
         for Border { held, couples } in &self.islands {
@@ -95,7 +94,7 @@ impl Borders {
                     rows[held[index]].response(&rows[joints[unknown]], bodies) * joint_answer[unknown];
             }
             let (own, others) = matrix.split_at(held.len() * held.len());
-            redundant::solve(own, &mut self.answer, held.iter().map(|row| shares(&rows[*row])), &mut self.work);
+            equations.solve(own, &mut self.answer, held.iter().map(|row| shares(&rows[*row])));
             let (of_island, rest) = columns.split_at(held.len() * joints.len());
             for ((row, force), column) in held.iter().zip(&self.answer).zip(of_island.chunks_exact(joints.len())) {
                 values[*row] = *force;

@@ -46,6 +46,9 @@ impl Rows {
     pub fn stay_in_cones(&mut self, bodies: &Bodies) {
         let (mut given, mut refused): (Vec<AtBound>, Vec<usize>) = (Vec::new(), Vec::new());
         while let Some(next) = self.farthest_beyond(&given, &refused) {
+            if self.is_given_up() {
+                return;
+            }
             given.push(next);
             // At its bound it is nearly held anyway. Without any force it tells whether others hold it.
             let without = Cone { coefficient: 0.0, ..next.cone };
@@ -84,7 +87,7 @@ impl Rows {
     }
 
     /// The forces of all rows, of which some give their bounds, and whether the others hold those.
-    fn solved_beside(&self, given: &[AtBound], bodies: &Bodies) -> (Vec<f64>, bool) {
+    fn solved_beside(&mut self, given: &[AtBound], bodies: &Bodies) -> (Vec<f64>, bool) {
         let mut others = Self::default();
         let is_given = |row: usize| given.iter().any(|other| other.row == row);
         let kept: Vec<usize> = (0..self.len()).filter(|row| !is_given(*row)).collect();
@@ -128,6 +131,7 @@ impl Rows {
             };
             answer[other.row] = other.sign * (other.cone.coefficient * force);
         }
+        self.count(others.multiplications());
         (answer, held)
     }
 }

@@ -7,7 +7,7 @@
 use glam::DVec2;
 
 use super::cones::{Cone, ConePressure};
-use super::redundant::{self, Share};
+use super::redundant::{Equations, Share};
 use super::row::{LostTo, Row, RowKind};
 use super::solver::Solver;
 use crate::world::Bodies;
@@ -19,6 +19,10 @@ const ROUNDING: f64 = 1e-12;
 const PULL: f64 = 1e-6;
 /// Rows of joints round by less: their part of that share.
 const OF_JOINTS: f64 = 0.01;
+
+/// Held contacts that are solved together at the most: their matrix has 8 MB, and a solution takes a second. More of them are handed
+/// over to springs before the next step, so they keep the forces of their springs.
+const MOST_TOGETHER: usize = 1024;
 
 /// A body with the sum of the forces that hold it, in newtons.
 #[derive(Debug, Serialize, Deserialize)]
@@ -59,7 +63,10 @@ pub struct Rows {
     matrix: Vec<f64>,
     answer: Vec<f64>,
     #[serde(skip)]
-    work: Vec<f64>,
+    equations: Equations,
+    /// The multiplications from which on the search for cones ends. `None`: it goes on.
+    #[serde(skip)]
+    most_multiplications: Option<f64>,
     /// The number of rows that are not those of contacts.
     joints: usize,
     /// Rows that give their bounds in this evaluation, because their rates would need more.
@@ -84,6 +91,26 @@ impl Rows {
             && answer.iter().all(|force| force.is_finite())
             && *joints <= rows.len()
             && given.iter().all(|row| *row < rows.len())
+    }
+
+    /// The number of multiplications that dense equations took so far.
+    pub fn multiplications(&self) -> f64 {
+        self.equations.multiplications + self.solver.as_ref().map_or(0.0, |solver| solver.multiplications())
+    }
+
+    /// After so many multiplications, searches among these rows end where they are. The run is to be given up then.
+    pub fn give_up_after(&mut self, multiplications: f64) {
+        self.most_multiplications = Some(multiplications);
+    }
+
+    /// Whether searches are to end.
+    pub(super) fn is_given_up(&self) -> bool {
+        self.are_too_many() || self.most_multiplications.is_some_and(|most| self.multiplications() > most)
+    }
+
+    /// Counts those of equations that were solved apart.
+    pub(super) fn count(&mut self, multiplications: f64) {
+        self.equations.multiplications += multiplications;
     }
 
     /// Forgets all rows.
@@ -192,8 +219,12 @@ impl Rows {
         if self.has_joints() {
             return self.solve_joined(bodies, |row| row.share);
         }
+        if self.are_too_many() {
+            self.answer.clear();
+            return self.answer.extend(self.rows.iter().map(|row| row.share.natural));
+        }
         self.fill_matrix(bodies);
-        redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share), &mut self.work);
+        self.equations.solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share));
     }
 
     /// After [`Rows::solve`]: rows that yield and would need more than their bounds give exactly their bounds. The
@@ -218,6 +249,7 @@ impl Rows {
                 self.given.iter().map(|other| row.response(&self.rows[*other], bodies) * self.answer[*other]).sum()
             };
             others.solve_beside(bodies, given);
+            self.count(others.multiplications());
             kept.iter().zip(&others.answer).for_each(|(index, force)| self.answer[*index] = *force);
         }
     }
@@ -245,6 +277,11 @@ impl Rows {
         self.answer = answer;
     }
 
+    /// Whether contacts alone are more than can be solved for together.
+    fn are_too_many(&self) -> bool {
+        !self.has_joints() && self.rows.len() > MOST_TOGETHER
+    }
+
     fn fill_matrix(&mut self, bodies: &Bodies) {
         let rows = &self.rows;
         self.matrix.clear();
@@ -254,6 +291,9 @@ impl Rows {
     /// Impulses that make the relative velocities of all rows zero. These velocities come from rounding and from the
     /// error of a step of `dt` seconds. Returns whether anything changed.
     pub fn stop(&mut self, bodies: &mut Bodies, dt: f64, mut book: impl FnMut(Booking)) -> bool {
+        if self.are_too_many() {
+            return false;
+        }
         self.answer.clear();
         self.answer.extend(self.rows.iter().map(|row| row.rate - row.velocity(bodies)));
         let unloaded = |row: &Row| Share { natural: 0.0, ..row.share };
@@ -261,7 +301,7 @@ impl Rows {
             self.solve_joined(bodies, unloaded);
         } else {
             self.fill_matrix(bodies);
-            redundant::solve(&self.matrix, &mut self.answer, self.rows.iter().map(unloaded), &mut self.work);
+            self.equations.solve(&self.matrix, &mut self.answer, self.rows.iter().map(unloaded));
         }
         self.book_powers(bodies, &mut book);
         for (row, &impulse) in self.rows.iter().zip(&self.answer) {

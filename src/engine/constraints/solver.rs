@@ -6,7 +6,7 @@
 //! until the rows are satisfied. The answer tends to the solution of least norm (proximal iteration, Rockafellar 1976).
 //! The norm measures each unknown by its diagonal and by its [`Share`].
 
-use super::redundant::{self, Share};
+use super::redundant::{Equations, Share};
 use super::row::{Row, RowKind};
 use super::structure::Structure;
 use crate::world::Bodies;
@@ -51,9 +51,15 @@ pub struct Solver {
     right: Vec<f64>,
     answer: Vec<f64>,
     work: Vec<f64>,
+    equations: Equations,
 }
 
 impl Solver {
+    /// The number of multiplications that dense equations took so far.
+    pub fn multiplications(&self) -> f64 {
+        self.equations.multiplications
+    }
+
     /// Finds the factors, and the structure if it is a new one.
     pub fn prepare(&mut self, rows: &[Row], bodies: &Bodies) {
         self.prepare_with(rows, bodies, MOST_DENSE);
@@ -147,7 +153,7 @@ impl Solver {
             let contacts = island.iter().filter(|row| rows[**row].kind == RowKind::Acceleration);
             let greatest = contacts.map(|row| shares(&rows[*row]).measure).fold(f64::MIN_POSITIVE, f64::max);
             let shares = |row: &usize| among_contacts(&rows[*row], shares(&rows[*row]), greatest);
-            redundant::solve(own, &mut self.answer, island.iter().map(shares), &mut self.work);
+            self.equations.solve(own, &mut self.answer, island.iter().map(shares));
             island.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
             matrix = others;
         }
@@ -161,7 +167,8 @@ impl Solver {
         if self.dependent {
             self.refine(rows, bodies);
         }
-        self.structure.borders.solve((rows, &self.structure.sparse), bodies, shares, values, &mut self.answer);
+        let Self { structure, equations, answer, .. } = self;
+        structure.borders.solve((rows, &structure.sparse), bodies, shares, values, (answer, equations));
         self.structure.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
     }
 

@@ -78,8 +78,8 @@ pub(super) struct Progress {
 pub(crate) struct AllowedWork {
     pub most: f64,
     pub done: f64,
-    /// Evaluations whose work is done.
-    pub counted: u64,
+    /// Evaluations whose work is done, and multiplications of dense equations.
+    pub counted: (u64, f64),
 }
 
 impl Progress {

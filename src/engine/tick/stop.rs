@@ -2,6 +2,7 @@
 
 use super::failure::{FailureKind, Trouble};
 use super::progress::AllowedWork;
+use super::work::PER_MULTIPLICATION;
 use super::{State, Tick, work_of_an_evaluation};
 use crate::world::finite;
 
@@ -15,15 +16,19 @@ impl State {
     /// From now on the run may take so much work more, in the unit of [`work_of_an_evaluation`]. Then it ends at the next step inside a
     /// tick, with [`FailureKind::Stopped`], and cannot be continued. From tick to tick it does not end.
     pub fn end_after(&mut self, work: f64) {
-        self.progress.allowed = Some(AllowedWork { most: work, done: 0.0, counted: self.evaluation.count });
+        let counted = (self.evaluation.count, self.rows().multiplications());
+        self.progress.allowed = Some(AllowedWork { most: work, done: 0.0, counted });
+        self.rows_mut().give_up_after(counted.1 + work / PER_MULTIPLICATION);
     }
 
-    /// Whether the run has taken more work than it may. Each evaluation since the last call counts as one of the present state.
+    /// Whether the run has taken more work than it may. Each evaluation since the last call counts as one of the present state. Dense
+    /// equations of rows are counted as they are solved, because an evaluation may solve them once or a hundred times.
     fn has_spent(&mut self) -> bool {
         let Some(AllowedWork { most, done, counted }) = self.progress.allowed else { return false };
-        let count = self.evaluation.count;
-        let done = done + count.saturating_sub(counted) as f64 * work_of_an_evaluation(self);
-        self.progress.allowed = Some(AllowedWork { most, done, counted: count });
+        let (count, multiplications) = (self.evaluation.count, self.rows().multiplications());
+        let evaluations = count.saturating_sub(counted.0) as f64 * work_of_an_evaluation(self);
+        let done = done + evaluations + PER_MULTIPLICATION * (multiplications - counted.1).max(0.0);
+        self.progress.allowed = Some(AllowedWork { most, done, counted: (count, multiplications) });
         done > most
     }
 
