@@ -54,7 +54,9 @@ struct Overlaps {
 impl Overlaps {
     fn of(bodies: &Bodies) -> Self {
         let mut found = Self { most: most_pairs(bodies), ..Self::default() };
-        let complete = cells::overlapping(bodies, MOST_LOOKS, |pair| {
+        let some_round = (0..bodies.atom_count()).any(|atom| !bodies.is_corner(atom));
+        let looks = if some_round { MOST_LOOKS } else { 0 };
+        let complete = cells::overlapping(bodies, looks, |pair| {
             let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
             if bodies.is_corner(a) || bodies.is_corner(b) {
                 return true;
@@ -84,11 +86,17 @@ impl Overlaps {
         let apart = super::indices_apart(bodies);
         // Bars may cross without a corner of one inside the other.
         hulls::each_pair_of_hulls(bodies, &apart, found.most, |a, b| {
+            if found.is_full() {
+                return;
+            }
             let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);
             let [pose, other] = [first, second].map(|packed| bodies.pose_with_hulls(packed.body as usize));
             let overlap = -distance(&first.hull, &pose, &second.hull, &other);
             found.add(overlap, first.half_width.min(second.half_width), Pair::Bodies(first.body, second.body));
         });
+        if found.is_full() {
+            return found;
+        }
         let complete_hulls = hulls::each_pair(bodies, 0.0, (&apart, found.most), |pair| {
             let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
                 ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
@@ -97,7 +105,7 @@ impl Overlaps {
             found.add(pair.overlap(bodies), pair.size(bodies), whose);
         });
         let single = bodies.single_walls().count();
-        found.more |= !complete || !complete_hulls || single > looked_at && !touching.is_empty();
+        found.more |= some_round && !complete || !complete_hulls || single > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found
@@ -117,7 +125,12 @@ impl Overlaps {
                 self.deepest = Some((share, overlap, pair));
             }
         }
-        self.atoms <= self.most
+        !self.is_full()
+    }
+
+    /// Whether there are too many for a run. Others change nothing of that.
+    fn is_full(&self) -> bool {
+        self.atoms > self.most
     }
 }
 
