@@ -284,7 +284,7 @@ fn largest_joint_drift(state: &State) -> Option<LargestDrift> {
     Some(LargestDrift { meters: drift.meters, joint, time: drift.time })
 }
 
-fn told_overlap(world: &World, which: fn(&DeepestOverlap) -> Overlap) -> LargestOverlap {
+pub(super) fn told_overlap(world: &World, which: fn(&DeepestOverlap) -> Overlap) -> LargestOverlap {
     let mut deepest = DeepestOverlap::default();
     deepest.merge(world.resource::<State>().deepest_overlap());
     // Contacts do not see bars that cross each other.

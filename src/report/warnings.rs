@@ -3,16 +3,23 @@
 use bevy_ecs::prelude::*;
 
 use super::advice::Remedy;
-use super::card::name;
+use super::card::{name, told_overlap};
 use super::estimate::EstimatedError;
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::error::KnownError;
-use jostle_engine::tick::{EvaluationMode, State, TimeScales, far_travel};
+use jostle_engine::tick::{EvaluationMode, State, TimeScales, far_travel, largest_travel};
 use jostle_language::numbers::number;
 
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
+
+/// Whether no body went as far in a tick as an impact of few ticks needs. Such an impact reaches its overlap within them, so bodies
+/// that go less far rest on each other.
+pub(super) fn only_rests(world: &World) -> bool {
+    let deepest = told_overlap(world, |deepest| deepest.in_meters).meters;
+    largest_travel(world.resource()) * FEWEST_TICKS < deepest
+}
 
 /// The warnings of a run, one sentence each with body, time, likely cause and remedy.
 ///
@@ -61,6 +68,7 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     }
     // If the tick is above the critical one, this warning is superfluous.
     let brief = time_scales.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
+    let brief = brief.filter(|_| !only_rests(world));
     if let Some(brief) = brief {
         let ticks = brief.duration() / clock.dt;
         warnings.push(format!(

@@ -198,7 +198,7 @@ const BROKEN: [Broken; 27] = [
            materials: { "m": (stiffness: 8e3, restitution: 1) },
            bodies: [(name: "ball", at: (0, 1.9), material: "m", atoms: Disc(radius: 1, mass: 1))]"#,
         "",
-        &["contacts begin and end inside ticks", "`ball` first", "--tolerance"],
+        &["contacts begin, end, stick and slip inside ticks", "`ball` first", "--tolerance"],
     ),
     (
         "a tolerance that chaos does not let",
@@ -328,4 +328,21 @@ fn what_stands_is_not_blamed_for_rounding() {
     let held = scene.replace("method: Dop853, tick: \"10 ms\"", "method: Reference");
     std::fs::write(folder.path("held.ron"), held).unwrap();
     folder.jostle("run held.ron").code(0).says("\n  Trust it: all bodies rest. The energy residual is 0.");
+}
+
+/// A box that rests has no impact, however few ticks an impact of its stiffness would last. One that is thrown has.
+#[test]
+fn impacts_are_doubted_only_where_bodies_meet() {
+    let folder = Folder::new("verdict_rests");
+    let scene = r#"Scene(format: 1, clock: (duration: 2, tick: "1 ms", method: VelocityVerlet), gravity: (0, -9.81),
+        materials: { "m": (stiffness: 1e5, friction: 0.4, restitution: 0.3) },
+        walls: [(name: "floor", left: (10, 0), right: (-10, 0), material: "m")],
+        bodies: [(name: "box", at: (0, 0.05), shape: Rectangle(width: 0.2, height: 0.1), mass: 1, material: "m")],
+        forces: [Drive(of: "box", force: (1, 0), course: Sine(frequency: 0.5))])"#;
+    for (at, doubted) in [("(0, 0.05)", false), ("(0, 0.3)", true)] {
+        std::fs::write(folder.path("box.ron"), scene.replace("(0, 0.05)", at)).unwrap();
+        let card = folder.jostle("run box.ron --json").code(0).json().remove(0)["card"].clone();
+        let verdict = card["verdict"].as_str().unwrap();
+        assert_eq!(verdict.contains("Do not trust impacts"), doubted, "at {at}: {verdict}");
+    }
 }

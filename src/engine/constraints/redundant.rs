@@ -92,8 +92,8 @@ fn eliminate(matrix: &mut [f64], answer: &mut [f64], multiplications: &mut f64) 
 /// a sum of rows. Rows are made orthogonal one by one (Gram and Schmidt). The next row is the one of which the greatest share is
 /// left (Golub and Van Loan, *Matrix Computations*, 5.4.2). So rounding in a weak direction cannot make a row of which nothing is left seem new.
 ///
-/// Rows of bodies far apart share no unknown. So products of rows look only at the unknowns between the first and the last that
-/// both have, and rows that are orthogonal stay as they are.
+/// Rows of bodies far apart share no unknown. So products of rows look only at the range of unknowns of
+/// both. Orthogonal rows stay as they are.
 fn nearest(matrix: &[f64], right: &[f64], shares: &[Share], answer: &mut [f64], multiplications: &mut f64) {
     let size = right.len();
     let measures = measures(matrix, shares);

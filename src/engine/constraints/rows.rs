@@ -214,14 +214,17 @@ impl Rows {
 
     /// The same beside rows of another list, which accelerate each row by `beside`, in m/s2 or rad/s2.
     pub(super) fn solve_beside(&mut self, bodies: &Bodies, beside: impl Fn(&Row) -> f64) {
+        if self.are_too_many() {
+            return self.keep_springs(bodies, beside);
+        }
+        self.solve_together(bodies, beside);
+    }
+
+    fn solve_together(&mut self, bodies: &Bodies, beside: impl Fn(&Row) -> f64) {
         self.answer.clear();
         self.answer.extend(self.rows.iter().map(|row| -row.acceleration(bodies) - beside(row)));
         if self.has_joints() {
             return self.solve_joined(bodies, |row| row.share);
-        }
-        if self.are_too_many() {
-            self.answer.clear();
-            return self.answer.extend(self.rows.iter().map(|row| row.share.natural));
         }
         self.fill_matrix(bodies);
         self.equations.solve(&self.matrix, &mut self.answer, self.rows.iter().map(|row| row.share));
@@ -277,9 +280,24 @@ impl Rows {
         self.answer = answer;
     }
 
-    /// Whether contacts alone are more than can be solved for together.
+    /// Whether contacts are more than can be solved for together.
     fn are_too_many(&self) -> bool {
-        !self.has_joints() && self.rows.len() > MOST_TOGETHER
+        self.rows.len() - self.joints > MOST_TOGETHER
+    }
+
+    /// Contacts keep the forces of their springs, and joints are solved beside them.
+    fn keep_springs(&mut self, bodies: &Bodies, beside: impl Fn(&Row) -> f64) {
+        self.answer.clear();
+        self.answer.extend(self.rows.iter().map(|row| row.share.natural));
+        let (joints, contacts): (Vec<usize>, Vec<usize>) =
+            (0..self.rows.len()).partition(|index| self.rows[*index].kind != RowKind::Acceleration);
+        let mut others = Self::default();
+        joints.iter().for_each(|index| others.add(self.rows[*index]));
+        let given = |row: &Row| -> f64 {
+            contacts.iter().map(|other| row.response(&self.rows[*other], bodies) * self.answer[*other]).sum()
+        };
+        others.solve_together(bodies, |row| beside(row) + given(row));
+        joints.iter().zip(&others.answer).for_each(|(index, force)| self.answer[*index] = *force);
     }
 
     fn fill_matrix(&mut self, bodies: &Bodies) {

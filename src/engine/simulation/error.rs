@@ -8,6 +8,9 @@ use serde::Serialize;
 use crate::tick::State;
 use jostle_language::numbers::{LEAST, number, rough};
 
+/// The remedy where runs locate too few of their events to tell an error.
+pub(super) const COMPARE_TICKS: &str = "Write a tick, and compare with a tenth of it";
+
 /// An error and its sources; `null` until it is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
 pub struct ErrorParts {
@@ -82,7 +85,7 @@ impl KnownError {
             });
             known.warning = Some(format!(
                 "{missed}some ticks had too many events to locate them all. The compared runs located theirs, so the error of this one \
-                 is not known"
+                 is not known. {COMPARE_TICKS}"
             ));
         }
         Some(known)

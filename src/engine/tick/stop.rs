@@ -22,7 +22,7 @@ impl State {
     }
 
     /// Whether the run has taken more work than it may. Each evaluation since the last call counts as one of the present state. Dense
-    /// equations of rows are counted as they are solved, because an evaluation may solve them once or a hundred times.
+    /// equations of rows are counted as they are solved: an evaluation may solve them once or a hundred times.
     fn has_spent(&mut self) -> bool {
         let Some(AllowedWork { most, done, counted }) = self.progress.allowed else { return false };
         let (count, multiplications) = (self.evaluation.count, self.rows().multiplications());

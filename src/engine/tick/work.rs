@@ -10,7 +10,7 @@ const PER_ROW: f64 = 0.5;
 const PER_PAIR: f64 = 0.1;
 /// The same for each pair that touches: the search for rest takes most of it.
 const PER_CONTACT: f64 = 1.0;
-/// The work for each multiplication in dense equations of rows: some 2 ns with the coefficients that are read and written.
+/// The work for each multiplication in dense equations of rows: some 2 ns with its reads and writes.
 pub(super) const PER_MULTIPLICATION: f64 = 0.004;
 
 /// The work of an evaluation, from the present neighbours, contacts and rows.

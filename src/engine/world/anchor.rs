@@ -49,8 +49,8 @@ impl Anchor {
     }
 }
 
-/// Reports the first anchor so far from its body that rounding moves it by more than the size of the body. No number of 16
-/// digits holds its place, and a turn of the body by one rounding throws it off.
+/// Reports the first anchor so far away that rounding moves it by more than the size of its body. Numbers of 16 digits do not
+/// hold its place.
 pub fn refuse_far(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
     let is_far = |anchor: &&Anchor| {

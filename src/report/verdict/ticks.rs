@@ -6,7 +6,7 @@ use super::{Cause, Evidence, Trust, VerdictPart, at};
 use crate::Remedy;
 use crate::advice::rounded_down;
 use crate::estimate::EstimatedError;
-use crate::warnings::FEWEST_TICKS;
+use crate::warnings::{FEWEST_TICKS, only_rests};
 use jostle_engine::tick::{Holder, State, far_travel};
 use jostle_language::numbers::number;
 
@@ -73,6 +73,9 @@ pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
         return None;
     }
     if brief.is_none() && far_travel_unseen(evidence).is_some() {
+        return None;
+    }
+    if only_rests(world) {
         return None;
     }
     let whose = brief.map_or_else(

@@ -68,7 +68,7 @@ pub(super) fn inexact(evidence: &Evidence) -> Option<Cause> {
     let unseen =
         world.resource::<State>().contact_law().is_some() && !card.located && card.largest_overlap.meters > 0.0;
     let why = if unseen {
-        format!("contacts begin and end inside ticks. {} sees them only at the ends", card.method)
+        format!("contacts begin, end, stick and slip inside ticks. {} sees that only at the ends", card.method)
     } else {
         format!("the tick of {} s is too long for the motion", number(card.tick))
     };
@@ -141,7 +141,11 @@ fn finer_to_compare(evidence: &Evidence) -> String {
         // `Reference` has no finer steps, and its ticks are frames.
         None => "`--tolerance 1e-8`".to_owned(),
     };
-    format!("{option}, and places on which both runs agree")
+    // Finer steps of one method agree with each other, where both methods draw the springs of contacts in another order.
+    let touched = evidence.world.resource::<State>().deepest_overlap().in_share.between.is_some();
+    let harder =
+        if touched { ". If they part again, a greater `stiffness` of materials brings both nearer" } else { "" };
+    format!("{option}, and places on which both runs agree{harder}")
 }
 
 /// Stiffer contacts lead elsewhere.

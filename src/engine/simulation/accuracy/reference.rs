@@ -5,6 +5,7 @@
 //! begins very near to the first. The growth of their distance gives the time for which digits last. Errors of chaotic
 //! motion grow as `e^(lambda t)`. So rounding alone, `2^-53`, becomes visible after `ln(seen / 2^-53) / lambda`.
 
+use super::alike_by_events;
 use super::fineness::Trials;
 use super::tolerance::estimate;
 use crate::Simulation;
@@ -71,11 +72,7 @@ pub(super) fn find(trials: &mut Trials) -> Result<Plan, SceneErrors> {
     if coarse.overloaded || fine.overloaded {
         // Stretches of whole ticks are alike in both runs.
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
-        plan.warning = Some(
-            "some ticks had too many events to locate them all. The compared runs are alike there, so their error is not \
-             known. Write a tick, and compare with a tenth of it"
-                .to_owned(),
-        );
+        plan.warning = Some(alike_by_events());
     } else if parted.is_none() && error.share > TELLS_NOTHING {
         (known.position.discretisation, known.velocity.discretisation) = (None, None);
     } else if coarse.bounded && fine.bounded && error.distance < ALIKE * fine.farthest() {

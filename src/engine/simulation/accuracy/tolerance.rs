@@ -9,6 +9,7 @@
 //! foretells is accepted too. Errors of steps whose length follows from their error obey no such law. They add up with
 //! changing signs, so that the sum for one allowance says little of the sum for another. They are measured only.
 
+use super::alike_by_events;
 use super::fineness::{Ladder, Trials};
 use super::reference::TELLS_NOTHING;
 use super::trajectory::{Trajectory, TrajectoryDistance};
@@ -331,10 +332,7 @@ fn missed(
         _ if ends.dear && !ends.finest => {
             format!("trials ended after {} evaluations of all forces, as further ones take long", trials.evaluations)
         }
-        _ if coarse.overloaded || fine.overloaded => {
-            "some ticks had too many events to locate them all. The compared runs are alike there, so their error is not known"
-                .to_owned()
-        }
+        _ if coarse.overloaded || fine.overloaded => alike_by_events(),
         Some(time) => {
             let why = match ends.finest {
                 true if magnified => ": the motion magnifies errors of the finest steps, as chaos does",
