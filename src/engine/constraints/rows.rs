@@ -398,3 +398,41 @@ impl Rows {
 fn mobility(bodies: &Bodies, body: usize) -> f64 {
     bodies.inverse_mass(body) + bodies.extent(body).powi(2) * bodies.inverse_inertia(body)
 }
+
+#[cfg(test)]
+mod tests {
+    use bevy_ecs::entity::Entity;
+
+    use super::super::{RowSide, Share};
+    use super::*;
+
+    /// Promise: more contacts than can be solved for keep the forces of their springs, and a joint holds its body beside them. A body
+    /// of 1 kg is pulled with 3 N along a joint, and each contact pushes with 0.01 N. Tolerance: rounding of a thousand sums.
+    #[test]
+    fn contacts_beyond_all_bounds_keep_their_springs() {
+        let mut bodies = Bodies {
+            entity: vec![Entity::PLACEHOLDER],
+            dynamic: vec![true],
+            mass: vec![1.0],
+            inertia: vec![1.0],
+            force: vec![DVec2::new(3.0, -10.0)],
+            torque: vec![0.0],
+            ..Bodies::default()
+        };
+        bodies.velocity.push(DVec2::ZERO);
+        bodies.spin.push(0.0);
+        let along = |direction: DVec2| {
+            let side = RowSide { body: 0, direction, lever: 0.0, force: direction, torque: 0.0 };
+            Row { sides: [None, Some(side)], ..Row::default() }
+        };
+        let mut rows = Rows::default();
+        rows.add(Row { kind: RowKind::Position, ..along(DVec2::X) });
+        let share = Share { natural: 0.01, measure: 1.0 };
+        let contacts = MOST_TOGETHER + 1;
+        (0..contacts).for_each(|_| rows.add(Row { share, ..along(DVec2::new(0.6, 0.8)) }));
+        rows.solve(&bodies);
+        assert!((1..=contacts).all(|contact| rows.force(contact) == 0.01));
+        let pushed = 0.6 * 0.01 * contacts as f64;
+        assert!((rows.force(0) + 3.0 + pushed).abs() < 1e-12, "{} instead of {}", rows.force(0), -3.0 - pushed);
+    }
+}
