@@ -14,11 +14,12 @@ use jostle_language::numbers::number;
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
 
-/// Whether no body went as far in a tick as an impact of few ticks needs. Such an impact reaches its overlap within them, so bodies
-/// that go less far rest on each other.
+/// Whether bodies have rested on each other from the start on. No contact began, and no body went as far in a tick as an impact of
+/// few ticks needs: such an impact reaches its overlap within them.
 pub(super) fn only_rests(world: &World) -> bool {
+    let state = world.resource::<State>();
     let deepest = told_overlap(world, |deepest| deepest.in_meters).meters;
-    largest_travel(world.resource()) * FEWEST_TICKS < deepest
+    !state.time_scales().some_began && largest_travel(state) * FEWEST_TICKS < deepest
 }
 
 /// The warnings of a run, one sentence each with body, time, likely cause and remedy.

@@ -34,13 +34,19 @@ fn a_run_with_infinite_numbers_says_where_and_what_to_try() {
         );
 }
 
-/// Velocities are numbers, but their squares are not.
+/// Velocities are numbers, but their squares are not: from the start on, or after a tick of thrust.
 #[test]
 fn a_run_whose_energy_is_infinite_ends_with_that() {
-    let fast = "Scene(format: 1, clock: (duration: 1, tick: 0.001),
-        bodies: [(name: \"ray\", at: (0, 0), velocity: (1e200, 0), atoms: Disc(radius: 0.1))])";
+    let scene = |velocity: f64, more: &str| {
+        format!(
+            "Scene(format: 1, clock: (duration: 1, tick: 0.001, method: VelocityVerlet), {more}
+            bodies: [(name: \"ray\", at: (0, 0), velocity: ({velocity:e}, 0), atoms: Disc(radius: 0.1, mass: 1))])"
+        )
+    };
     let told = "the kinetic energy of `ray` is infinite or NaN";
-    Folder::new("fast").with("fast.ron", fast).jostle("run fast.ron").code(3).says(told);
+    Folder::new("fast").with("fast.ron", &scene(1e200, "")).jostle("run fast.ron").code(1).says(told);
+    let thrust = "forces: [Thrust(of: \"ray\", force: (1e200, 0))],";
+    Folder::new("faster").with("faster.ron", &scene(0.0, thrust)).jostle("run faster.ron").code(3).says(told);
 }
 
 /// The remedy that is advised helps: with that tick the run ends well.

@@ -1,10 +1,13 @@
-//! Scenes that begin with NaN or infinity. They are refused before the first tick, with the part of the scene that overflows.
+//! Scenes that begin with NaN or infinity, or with anchors beyond all digits. They are refused before the first tick, with the part
+//! of the scene that is to blame.
 
 use bevy_ecs::prelude::*;
 
 use super::{LoadErrors, Model, State};
 use crate::scene::SceneError;
+use crate::world::anchor::{Anchor, Anchors};
 use crate::world::{Name, finite};
+use jostle_language::numbers::number;
 
 const HELP: &str =
     "numbers beyond 1e308 overflow. Look for enormous distances, sizes, speeds, masses, stiffnesses or fields";
@@ -36,4 +39,23 @@ fn holds_finite_energy(model: &dyn Model, state: &State) -> bool {
 /// The section of the scene from which a model comes: the folder of its type has the same name.
 fn section_of(type_name: &str) -> &str {
     type_name.split("::").nth(1).filter(|folder| ["forces", "joints", "contacts"].contains(folder)).unwrap_or("bodies")
+}
+
+/// Reports the first anchor so far away that rounding moves it by more than the size of its body. Numbers of 16 digits do not
+/// hold its place.
+pub(crate) fn refuse_far_anchors(world: &mut World) {
+    let bodies = world.resource::<State>().bodies();
+    let is_far = |anchor: &&Anchor| {
+        let size = anchor.body.and_then(|body| bodies.index(body)).map_or(f64::INFINITY, |body| bodies.extent(body));
+        size > 0.0 && anchor.rounding(bodies) > size
+    };
+    let Some(anchors) = world.get_resource::<Anchors>() else { return };
+    let Some(far) = anchors.0.iter().find(is_far) else { return };
+    let message = format!(
+        "the anchor is {} m away. Numbers of 16 digits hold places so far only to {} m",
+        number(far.at.abs().max_element()),
+        number(far.rounding(bodies))
+    );
+    let error = SceneError::new(far.path.clone(), message).with_help("move it nearer to its body");
+    world.get_resource_or_init::<LoadErrors>().0.push(error);
 }

@@ -81,6 +81,8 @@ pub struct TimeScales {
     pub fastest: Option<Fastest>,
     /// Of a single pair.
     pub briefest: Option<Briefest>,
+    /// Whether contacts have begun since the start.
+    pub some_began: bool,
 }
 
 /// The largest angular frequency of all that holds bodies.
@@ -118,6 +120,7 @@ impl TimeScales {
             Self {
                 fastest: found.fastest.filter(faster).or(known.fastest),
                 briefest: found.briefest.filter(briefer).or(known.briefest),
+                some_began: known.some_began || found.some_began,
             }
         })
     }

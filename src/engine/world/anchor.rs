@@ -7,9 +7,6 @@ use bevy_ecs::prelude::*;
 use glam::DVec2;
 
 use super::{Bodies, Origin};
-use crate::scene::SceneError;
-use crate::tick::{LoadErrors, State};
-use jostle_language::numbers::number;
 
 /// The anchors of a scene, in the order of its models.
 #[derive(Resource, Clone, Debug, Default)]
@@ -47,25 +44,6 @@ impl Anchor {
         let center = body.map_or(DVec2::ZERO, |body| bodies.position[body]);
         ROUNDINGS * f64::EPSILON * (center.abs().max_element() + self.at.abs().max_element())
     }
-}
-
-/// Reports the first anchor so far away that rounding moves it by more than the size of its body. Numbers of 16 digits do not
-/// hold its place.
-pub fn refuse_far(world: &mut World) {
-    let bodies = &world.resource::<State>().bodies;
-    let is_far = |anchor: &&Anchor| {
-        let size = anchor.body.and_then(|body| bodies.index(body)).map_or(f64::INFINITY, |body| bodies.extent(body));
-        size > 0.0 && anchor.rounding(bodies) > size
-    };
-    let Some(anchors) = world.get_resource::<Anchors>() else { return };
-    let Some(Anchor { path, at, .. }) = anchors.0.iter().find(is_far) else { return };
-    let message = format!(
-        "the anchor is {} m away. Numbers of 16 digits hold places so far only to {} m",
-        number(at.abs().max_element()),
-        number(ROUNDINGS * f64::EPSILON * at.abs().max_element())
-    );
-    let error = SceneError::new(path.clone(), message).with_help("move it nearer to its body");
-    world.get_resource_or_init::<LoadErrors>().0.push(error);
 }
 
 /// The vector in metres from a body's centre of mass to its datum, in the frame of the body.

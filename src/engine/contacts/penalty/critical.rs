@@ -65,7 +65,8 @@ impl PenaltyContacts {
             self.watch.pairs = 0;
             return;
         }
-        let watch = &self.watch;
+        let watch = &mut self.watch;
+        watch.found.some_began |= touching > watch.pairs && clock.ticks > 0;
         let changed = touching != watch.pairs && clock.ticks >= watch.earliest;
         if changed || clock.ticks >= watch.next {
             self.measure::<N>(bodies, pairs, clock, stability, steady);
