@@ -29,6 +29,8 @@ pub fn number(value: f64) -> String {
 pub fn percent(share: f64) -> String {
     if share == 0.0 {
         "nothing".to_owned()
+    } else if share >= 1e6 {
+        format!("{:.0e} %", share * 100.0)
     } else if share >= 0.1 {
         format!("{:.0} %", share * 100.0)
     } else if share >= 1e-4 {
@@ -49,5 +51,11 @@ mod tests {
         assert_eq!(number(0.0123456), "0.012346");
         assert_eq!(number(1.5e-7), "1.5e-7");
         assert_eq!(number(5e-7), "5e-7");
+    }
+
+    #[test]
+    fn shares_are_written_with_few_digits() {
+        let written = [0.0, 2e-5, 0.0123, 0.5, 12.0, 1.11e180].map(percent);
+        assert_eq!(written, ["nothing", "2e-5", "1.23 %", "50 %", "1200 %", "1e182 %"]);
     }
 }

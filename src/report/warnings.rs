@@ -14,8 +14,8 @@ use jostle_language::numbers::number;
 /// Contacts that last fewer ticks are not resolved.
 pub(super) const FEWEST_TICKS: f64 = 10.0;
 
-/// Whether bodies have rested on each other from the start on. No contact began, and no body went as far in a tick as an impact of
-/// few ticks needs: such an impact reaches its overlap within them.
+/// Whether bodies have rested on each other from the start on. No contact began, and no body went far in a tick. An impact of few
+/// ticks reaches its overlap within them, so its body goes far.
 pub(super) fn only_rests(world: &World) -> bool {
     let state = world.resource::<State>();
     let deepest = told_overlap(world, |deepest| deepest.in_meters).meters;

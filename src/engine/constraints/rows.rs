@@ -406,7 +406,7 @@ mod tests {
     use super::super::{RowSide, Share};
     use super::*;
 
-    /// Promise: more contacts than can be solved for keep the forces of their springs, and a joint holds its body beside them. A body
+    /// Promise: contacts beyond the bound keep the forces of their springs, and a joint holds its body beside them. A body
     /// of 1 kg is pulled with 3 N along a joint, and each contact pushes with 0.01 N. Tolerance: rounding of a thousand sums.
     #[test]
     fn contacts_beyond_all_bounds_keep_their_springs() {
