@@ -44,9 +44,9 @@ fn a_run_whose_energy_is_infinite_ends_with_that() {
         )
     };
     let told = "the kinetic energy of `ray` is infinite or NaN";
-    Folder::new("fast").with("fast.ron", &scene(1e200, "")).jostle("run fast.ron").code(1).says(told);
+    Folder::new("fast").with("fast.ron", scene(1e200, "")).jostle("run fast.ron").code(1).says(told);
     let thrust = "forces: [Thrust(of: \"ray\", force: (1e200, 0))],";
-    Folder::new("faster").with("faster.ron", &scene(0.0, thrust)).jostle("run faster.ron").code(3).says(told);
+    Folder::new("faster").with("faster.ron", scene(0.0, thrust)).jostle("run faster.ron").code(3).says(told);
 }
 
 /// The remedy that is advised helps: with that tick the run ends well.
