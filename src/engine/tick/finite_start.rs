@@ -41,20 +41,22 @@ fn section_of(type_name: &str) -> &str {
     type_name.split("::").nth(1).filter(|folder| ["forces", "joints", "contacts"].contains(folder)).unwrap_or("bodies")
 }
 
-/// Reports the first anchor so far away that rounding moves it by more than the size of its body. Numbers of 16 digits do not
-/// hold its place.
+/// Reports the first anchor so far from its body that one rounding of the angle moves it by more than the size of the body. The
+/// place of the body has no part in that.
 pub(crate) fn refuse_far_anchors(world: &mut World) {
     let bodies = world.resource::<State>().bodies();
+    // Its length would overflow.
+    let farthest = |anchor: &Anchor| anchor.at.abs().max_element();
     let is_far = |anchor: &&Anchor| {
         let size = anchor.body.and_then(|body| bodies.index(body)).map_or(f64::INFINITY, |body| bodies.extent(body));
-        size > 0.0 && anchor.rounding(bodies) > size
+        size > 0.0 && f64::EPSILON * farthest(anchor) > size
     };
     let Some(anchors) = world.get_resource::<Anchors>() else { return };
     let Some(far) = anchors.0.iter().find(is_far) else { return };
     let message = format!(
         "the anchor is {} m away. Numbers of 16 digits hold places so far only to {} m",
-        number(far.at.abs().max_element()),
-        number(far.rounding(bodies))
+        number(farthest(far)),
+        number(f64::EPSILON * farthest(far))
     );
     let error = SceneError::new(far.path.clone(), message).with_help("move it nearer to its body");
     world.get_resource_or_init::<LoadErrors>().0.push(error);

@@ -42,7 +42,7 @@ impl Anchor {
     pub fn rounding(&self, bodies: &Bodies) -> f64 {
         let body = self.body.and_then(|body| bodies.index(body));
         let center = body.map_or(DVec2::ZERO, |body| bodies.position[body]);
-        ROUNDINGS * f64::EPSILON * (center.abs().max_element() + self.at.abs().max_element())
+        ROUNDINGS * f64::EPSILON * (center.abs().max_element() + self.at.length())
     }
 }
 

@@ -55,16 +55,16 @@ impl Overlaps {
     fn of(bodies: &Bodies) -> Self {
         let mut found = Self { most: most_pairs(bodies), ..Self::default() };
         let some_round = (0..bodies.atom_count()).any(|atom| !bodies.is_corner(atom));
-        let looks = if some_round { MOST_LOOKS } else { 0 };
-        let complete = cells::overlapping(bodies, looks, |pair| {
-            let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
-            if bodies.is_corner(a) || bodies.is_corner(b) {
-                return true;
-            }
-            let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
-            let whose = Pair::Bodies(bodies.atom_body(a) as u32, bodies.atom_body(b) as u32);
-            found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
-        });
+        let complete = !some_round
+            || cells::overlapping(bodies, MOST_LOOKS, |pair| {
+                let [a, b] = [pair.a, pair.b].map(|atom| atom as usize);
+                if bodies.is_corner(a) || bodies.is_corner(b) {
+                    return true;
+                }
+                let overlap = pair.reach(bodies) - bodies.atom_place(a).distance(bodies.atom_place(b));
+                let whose = Pair::Bodies(bodies.atom_body(a) as u32, bodies.atom_body(b) as u32);
+                found.add(overlap, bodies.atom_radius[a].min(bodies.atom_radius[b]), whose)
+            });
         let touching: Vec<usize> = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && bodies.collides[b]).collect();
         let looked_at = if touching.is_empty() { 0 } else { MOST_LOOKS / touching.len() };
         for index in bodies.single_walls().take(looked_at) {
@@ -105,7 +105,7 @@ impl Overlaps {
             found.add(pair.overlap(bodies), pair.size(bodies), whose);
         });
         let single = bodies.single_walls().count();
-        found.more |= some_round && !complete || !complete_hulls || single > looked_at && !touching.is_empty();
+        found.more |= !complete || !complete_hulls || single > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
         found.pairs.dedup();
         found
