@@ -41,8 +41,8 @@ fn section_of(type_name: &str) -> &str {
     type_name.split("::").nth(1).filter(|folder| ["forces", "joints", "contacts"].contains(folder)).unwrap_or("bodies")
 }
 
-/// Reports the first anchor so far from its body that one rounding of the angle moves it by more than the size of the body. The
-/// place of the body has no part in that.
+/// Reports the first anchor that one rounding of an angle moves by more than the size of its body. The place of the body has no
+/// part in that.
 pub(crate) fn refuse_far_anchors(world: &mut World) {
     let bodies = world.resource::<State>().bodies();
     // Its length would overflow.
