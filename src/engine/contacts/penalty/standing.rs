@@ -5,7 +5,9 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
+use super::contact_list::Edited;
 use super::coulomb::{Grip, ROUNDING};
+use super::indicators::SliderMotion;
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::switching::View;
@@ -78,6 +80,24 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
     }
 }
 
+/// Holds the friction of a contact that is held along its normal, if its sides neither move nor accelerate along the surface.
+/// Other contacts hold them. A spring would keep its force while theirs change, and they would slip below the sum of all cones.
+/// Says whether it is held now.
+fn hold_friction(contact: &mut Contact, law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> bool {
+    let sticks = contact.mode == Mode::Hold && contact.tangential.grip == Grip::Stick;
+    if !sticks || law.exact || !law.tangential().acts() {
+        return false;
+    }
+    let motion = SliderMotion::along(geometry, law.shares(), bodies);
+    let pushed = motion.mobility * law.stiffness * geometry.overlap;
+    let stands = motion.is_still() && motion.rate.abs() <= STANDS * pushed;
+    if stands {
+        let force = contact.tangential.force(&law.tangential());
+        (contact.tangential.grip, contact.tangential.held) = (Grip::Hold, force);
+    }
+    stands
+}
+
 /// Holds the contacts whose sides neither move nor accelerate along the normal. Returns whether there were any.
 pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodies, pairs: &CandidatePairs) -> bool {
     if !N::SET_VALUED {
@@ -96,26 +116,24 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
     };
     released.retain(|&released| touches(released as usize));
     let mut some = false;
-    let mut hold = |index: usize, contact: &Contact, geometry: &PairGeometry| {
+    let mut hold = |index: usize, contact: &mut Edited, geometry: &PairGeometry| {
         let waits = released.contains(&(index as u32));
         if waits && !is_still::<N>(contact, laws.get(contact.law), geometry) {
             released.retain(|&released| released as usize != index);
         }
-        let holds = !waits && stands(contact, geometry);
-        some |= holds;
-        holds
+        if !waits && stands(contact, geometry) {
+            contact.mode = Mode::Hold;
+            some = true;
+        }
+        let law = laws.get(contact.law);
+        some |= hold_friction(contact, law, geometry, bodies);
     };
     for index in atoms.touching().collect::<Vec<_>>() {
-        let geometry = PairGeometry::atoms(bodies, index, pairs.atoms[index]);
-        if hold(index, &atoms.get(index), &geometry) {
-            atoms.edit(index).mode = Mode::Hold;
-        }
+        hold(index, &mut atoms.edit(index), &PairGeometry::atoms(bodies, index, pairs.atoms[index]));
     }
     for index in surfaces.touching().collect::<Vec<_>>() {
         let geometry = PairGeometry::surface(bodies, index, pairs.surfaces[index]);
-        if hold(atoms.len() + index, &surfaces.get(index), &geometry) {
-            surfaces.edit(index).mode = Mode::Hold;
-        }
+        hold(count + index, &mut surfaces.edit(index), &geometry);
     }
     some
 }

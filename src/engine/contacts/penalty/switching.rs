@@ -193,6 +193,7 @@ impl View<'_> {
             if matches!(what, What::Give(_)) {
                 gave.push(pair);
             }
+            self.note_given(pair as usize, what);
             if matches!(what, What::Lower | What::Upper) {
                 // Twice: beside this friction its force left the bounds, so the same friction is not tried again.
                 self.contacts.released.extend([pair, pair]);
@@ -282,6 +283,17 @@ impl View<'_> {
         stopped.push(index as u32);
         if let Some(before) = before.get_mut(index) {
             before[0] = Some(slider);
+        }
+    }
+
+    /// A friction that gives way at this event was beyond its cone. Its slide is no try, so nothing takes it back.
+    fn note_given(&mut self, index: usize, what: What) {
+        if let Some(before) = self.contacts.before.get_mut(index) {
+            match what {
+                What::Give(_) => before[0] = None,
+                What::RollingGive(_) => before[1] = None,
+                _ => {}
+            }
         }
     }
 
