@@ -1,6 +1,7 @@
 //! The loads on bodies before the first tick: all forces but those of contacts.
 
 use super::{Evaluation, EvaluationMode, Rates, State};
+use crate::constraints::Row;
 use crate::constraints::spring_network::Twist;
 
 impl State {
@@ -25,12 +26,28 @@ impl State {
         loads.extend(forces.map(|(&linear, &angular)| Twist { linear, angular }));
     }
 
-    /// For each body whether a joint holds it at the start; empty without joints.
-    pub(crate) fn jointed_at_start(&mut self) -> Vec<bool> {
+    /// The rows of joints in the present places, before the first tick.
+    pub(crate) fn joint_rows_at_start(&mut self) -> Vec<Row> {
         self.find_roles();
         self.rows.clear();
         self.add_joint_rows();
+        let rows = self.rows.all().to_vec();
         self.rows.clear();
-        std::mem::take(&mut self.bodies.jointed)
+        self.bodies.jointed.clear();
+        rows
+    }
+
+    /// The least distance of joints from where their modes end, before the first tick: below zero beyond a limit.
+    pub(crate) fn least_room_at_start(&mut self) -> f64 {
+        let (mut told, mut least) = (Vec::new(), f64::INFINITY);
+        let mut models = std::mem::take(&mut self.models);
+        for &index in self.roles.rows.iter().filter(|index| **index < self.roles.others) {
+            let Some(events) = models[index].events() else { continue };
+            told.clear();
+            events.tell(self, &mut told);
+            least = told.iter().map(|indicator| indicator.value + indicator.rounding).fold(least, f64::min);
+        }
+        self.models = models;
+        least
     }
 }

@@ -17,6 +17,7 @@ use bevy_ecs::prelude::*;
 
 use super::apply::{sides_at_surface, sides_of_atoms};
 use super::begun::{Begun, Named};
+use super::equilibrium_joint::JointRow;
 use super::equilibrium_part::{Candidate, touch_gap};
 use super::equilibrium_search::{Outcome, Search};
 use super::normal::NormalForce;
@@ -120,8 +121,8 @@ fn find<N: NormalForce>(state: &mut State) -> Option<Found> {
     if !search.some_touch() {
         return None;
     }
-    let jointed = state.jointed_at_start();
-    search.gather(&state.bodies, &jointed);
+    let rows = JointRow::all(&state.joint_rows_at_start());
+    search.gather(&state.bodies, rows);
     if !search.is_needed() {
         return Some(Found { moved: Vec::new(), begun: search.jointed().to_vec(), some_move: false, unsolved: None });
     }

@@ -19,7 +19,7 @@ const OF_CONE: f64 = 1.0 - 1e-3;
 const BEARS_NOTHING: f64 = 5e-5;
 
 /// Rounding of a place, as a share of its coordinates.
-const NOISE: f64 = 4.0 * f64::EPSILON;
+pub(super) const NOISE: f64 = 4.0 * f64::EPSILON;
 
 /// A pair near members of an island.
 pub(super) struct Part {
@@ -162,6 +162,12 @@ impl Part {
             Named::Atoms(pair) => PairGeometry::atoms(bodies, self.index, pair),
             Named::Surface(_) => PairGeometry::surface(bodies, self.index, pairs.surfaces[self.index]),
         }
+    }
+
+    /// The square of the angular frequency in 1/s2 with which its bodies would swing on its spring.
+    pub fn rate(&self, bodies: &Bodies) -> f64 {
+        let other = self.other.map_or(0.0, |body| bodies.inverse_mass(body));
+        self.law.stiffness * (bodies.inverse_mass(self.own) + other)
     }
 
     /// Whether the sides touch as the scene places them.

@@ -12,7 +12,9 @@
 use glam::DVec2;
 
 use super::begun::Begun;
+use super::equilibrium_joint::JointRow;
 use super::equilibrium_part::{Candidate, Part, Round, Sides, of_scene};
+use crate::constraints::Row;
 use crate::constraints::islands::Islands;
 use crate::constraints::spring_network::{self, NetworkSpring, Relief, Twist, Unsolved};
 use crate::contacts::CandidatePairs;
@@ -55,6 +57,7 @@ pub(super) enum Outcome {
 pub(super) struct IslandSearch {
     members: Vec<usize>,
     parts: Vec<Part>,
+    joints: Vec<JointRow>,
     /// Places and angles at the start.
     start: Vec<(DVec2, f64)>,
     by: Vec<Twist>,
@@ -78,7 +81,7 @@ pub(super) struct Search {
     set_valued: bool,
     touching: Vec<Part>,
     islands: Vec<IslandSearch>,
-    /// Contacts of bodies that joints hold.
+    /// Contacts of bodies that joints move.
     jointed: Vec<Begun>,
     /// For each body its island, and its index there.
     place: Vec<(u32, u32)>,
@@ -102,11 +105,12 @@ impl Search {
         !self.touching.is_empty()
     }
 
-    /// Sorts the touching pairs into islands. `jointed`: bodies that joints hold.
-    pub fn gather(&mut self, bodies: &Bodies, jointed: &[bool]) {
+    /// Sorts the touching pairs into islands, with the rows of all joints.
+    pub fn gather(&mut self, bodies: &Bodies, mut rows: Vec<JointRow>) {
         let mut links = std::mem::take(&mut self.touching);
         let mut sorted = Islands::default();
-        sorted.sort::<Part, Part>(&mut links, &mut [], bodies);
+        sorted.sort(&mut links, &mut rows, bodies);
+        let mut rows = rows.into_iter().peekable();
         self.place = vec![(NONE, 0); bodies.len()];
         let mut links = links.into_iter().peekable();
         while let Some(first) = links.next() {
@@ -115,18 +119,25 @@ impl Search {
             while let Some(next) = links.next_if(|next| sorted.of(next, bodies) == root) {
                 parts.push(next);
             }
+            while rows.next_if(|row| sorted.of(row, bodies) < root).is_some() {}
+            let mut joints = Vec::new();
+            while let Some(row) = rows.next_if(|row| sorted.of(row, bodies) == root) {
+                joints.push(row);
+            }
             let ends = parts.iter().flat_map(|part| [Some(part.own), part.other]).flatten();
+            let ends = ends.chain(joints.iter().flat_map(JointRow::bodies));
             let mut members: Vec<usize> = ends.filter(|&body| bodies.dynamic[body]).collect();
             members.sort_unstable();
             members.dedup();
-            let held = members.iter().any(|&body| jointed.get(body).is_some_and(|jointed| *jointed));
-            if held {
+            let stand = parts.iter().all(|part| part.still) && joints.iter().all(|joint| joint.stands(bodies));
+            if !stand && !joints.is_empty() {
                 self.jointed.extend(parts.iter().filter_map(|part| part.as_placed(self.set_valued)));
+            }
+            if !stand {
                 continue;
             }
-            if parts.iter().any(|part| !part.still) {
-                continue;
-            }
+            let fastest = parts.iter().map(|part| part.rate(bodies)).fold(0.0, f64::max);
+            joints.iter_mut().for_each(|joint| joint.stiffen(fastest, bodies));
             for (index, &body) in members.iter().enumerate() {
                 self.place[body] = (self.islands.len() as u32, index as u32);
             }
@@ -135,6 +146,7 @@ impl Search {
             self.islands.push(IslandSearch {
                 members,
                 parts,
+                joints,
                 start,
                 by,
                 retries: 0,
@@ -172,7 +184,7 @@ impl Search {
         &self.islands
     }
 
-    /// Contacts of bodies that joints hold. They are there at the start and may rest: of all forces they begin with that of their spring.
+    /// Contacts of bodies that joints move. They are there at the start and may rest: of all forces they begin with that of their spring.
     pub fn jointed(&self) -> &[Begun] {
         &self.jointed
     }
@@ -181,14 +193,17 @@ impl Search {
     pub fn run(&mut self, state: &mut State, pairs: &CandidatePairs, loads: &mut Vec<Twist>) {
         state.models().for_each(|model| model.stiffness(state, &mut self.springs));
         let mut islands = std::mem::take(&mut self.islands);
+        let joined = islands.iter().any(|island| !island.joints.is_empty());
+        let least_room = if joined { state.least_room_at_start() } else { 0.0 };
         for round in 0..ROUNDS {
             if round > 0 {
                 state.loads_at_start(loads);
             }
+            let rows = if joined { state.joint_rows_at_start() } else { Vec::new() };
             let mut open = false;
             for (number, island) in islands.iter_mut().enumerate().filter(|(_, island)| island.outcome == Outcome::Open)
             {
-                self.improve((number as u32, island), &mut state.bodies, pairs, loads, round == 0);
+                self.improve((number as u32, island), &mut state.bodies, pairs, (loads, &rows), round == 0);
                 open |= island.outcome == Outcome::Open;
             }
             if !open {
@@ -198,6 +213,12 @@ impl Search {
         for island in &mut islands {
             if island.outcome == Outcome::Open {
                 island.leave(Outcome::Bound, &mut state.bodies);
+            }
+        }
+        if joined && state.least_room_at_start() < least_room.min(0.0) {
+            // A joint beyond its limit would spring back.
+            for island in islands.iter_mut().filter(|island| !island.joints.is_empty()) {
+                island.leave(Outcome::AsPlaced, &mut state.bodies);
             }
         }
         self.islands = islands;
@@ -211,7 +232,7 @@ impl Search {
         (number, island): (u32, &mut IslandSearch),
         bodies: &mut Bodies,
         pairs: &CandidatePairs,
-        loads: &[Twist],
+        (loads, rows): (&[Twist], &[Row]),
         first: bool,
     ) {
         let round = if first {
@@ -221,7 +242,10 @@ impl Search {
         } else {
             Round::Resting
         };
-        let IslandSearch { members, parts, .. } = island;
+        if island.joints.iter_mut().any(|joint| joint.look(rows).is_none()) {
+            return island.leave(Outcome::Bound, bodies);
+        }
+        let IslandSearch { members, parts, joints, .. } = island;
         let mut forces: Vec<Twist> = members.iter().map(|&body| loads[body]).collect();
         let extent = |body: usize| bodies.extent(body).max(f64::MIN_POSITIVE);
         let own = |body: usize| loads[body].linear.length() + loads[body].angular.abs() / extent(body);
@@ -245,11 +269,20 @@ impl Search {
             let size = part.now.normal + part.now.tangential.abs();
             sides.ends().for_each(|end| sizes[end] = (sizes[end].0 + size, sizes[end].1 + noise));
         }
+        let rigid: Vec<NetworkSpring> = joints.iter().map(|joint| joint.spring(index)).collect();
+        for (joint, spring) in joints.iter().zip(&rigid) {
+            joint.push(spring, &mut forces);
+            for end in spring.ends.iter().flatten() {
+                let (size, noise) = joint.size(end, extent(members[end.body]));
+                sizes[end.body] = (sizes[end.body].0 + size, sizes[end.body].1 + noise);
+            }
+        }
         let steady: Vec<NetworkSpring> = self.springs.iter().flat_map(|spring| of_scene(spring, index)).collect();
         let network = |parts: &[Part], all: bool| -> Vec<NetworkSpring> {
             let touching = parts.iter().zip(&springs).filter(|(part, _)| part.now.closed);
-            touching.flat_map(|(part, springs)| part.holding(springs, all)).collect()
+            touching.flat_map(|(part, springs)| part.holding(springs, all)).chain(rigid.iter().copied()).collect()
         };
+        let closed = joints.iter().all(JointRow::is_closed);
         let lacks = |force: &Twist, body: usize| force.linear.length().max(force.angular.abs() / extent(body));
         let balances = |forces: &[Twist], left_before: &mut f64| {
             let each =
@@ -262,10 +295,11 @@ impl Search {
         };
         let held = network(parts, false);
         let mut found = Err(Unsolved::Free);
+        if !island.moves && balances(&forces, &mut island.left) && closed {
+            return island.end(first, self.set_valued, bodies);
+        }
+        joints.iter().zip(&rigid).for_each(|(joint, spring)| joint.close(spring, &mut forces));
         if !island.moves {
-            if balances(&forces, &mut island.left) {
-                return island.end(first, self.set_valued, bodies);
-            }
             // Contacts decide whether a body is held. Then springs of the scene take their share of the loads.
             found = spring_network::solve(&held, &forces, &mut self.work);
             if found.is_ok() && !steady.is_empty() {
@@ -294,7 +328,7 @@ impl Search {
                 pairs.for_each(|(by, acceleration)| *by = by.plus(*acceleration, clear));
                 displacements
             });
-            if found.is_ok() && agree && balances(&forces, &mut island.left) {
+            if found.is_ok() && agree && balances(&forces, &mut island.left) && closed {
                 return island.end(first, self.set_valued, bodies);
             }
         }
@@ -302,6 +336,7 @@ impl Search {
         for (part, springs) in parts.iter_mut().zip(&springs).filter(|(part, _)| part.now.closed) {
             part.stretch(springs, &found);
         }
+        island.joints.iter_mut().zip(&rigid).for_each(|(joint, spring)| joint.stretch(spring, &found));
         let mut farthest = 0.0_f64;
         for ((by, found), (&body, start)) in
             island.by.iter_mut().zip(&found).zip(island.members.iter().zip(&island.start))
@@ -339,7 +374,9 @@ impl IslandSearch {
             let held = part.as_placed(set_valued)?;
             Some(if self.moves { Begun { overlap: held.overlap, ..part.begun(true) } } else { held })
         };
-        self.parts.iter().filter(|_| self.holds_as_placed).filter_map(begun)
+        // Contacts beside joints may rest: of all forces they begin with that of their spring.
+        let holds = self.holds_as_placed || !self.joints.is_empty();
+        self.parts.iter().filter(move |_| holds).filter_map(begun)
     }
 
     /// Bodies go back to where the scene places them.
@@ -365,6 +402,7 @@ impl IslandSearch {
         };
         let drawn = |part: &Part| part.is_pressed() && !bears_as_placed(part);
         let stays = first
+            || !self.joints.iter().all(JointRow::bears)
             || self.parts.iter().any(|part| foreign(part) || drawn(part))
             || self.parts.iter().all(bears_as_placed);
         self.holds_as_placed = self.parts.iter().all(bears_as_placed);

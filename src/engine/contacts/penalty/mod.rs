@@ -14,6 +14,7 @@ pub mod coulomb;
 mod critical;
 pub mod dashpot;
 mod equilibrium;
+mod equilibrium_joint;
 mod equilibrium_part;
 mod equilibrium_search;
 mod features;
