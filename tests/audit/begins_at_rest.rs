@@ -8,7 +8,7 @@
 //! `m g/k`: a corner bears at most all, and a box that leans turns by the difference of two corners. The search for the start may
 //! leave a share of 1e-7 of the forces. So the way of a slide is right to ten times that share, and to the last digits of its places.
 //!
-//! Not tested: bodies that joints hold; they begin as the scene places them.
+//! Not tested: bodies that joints hold, see `joined_at_the_start.rs`.
 
 use std::f64::consts::PI;
 use std::fmt::Write;

@@ -21,6 +21,7 @@ mod gaps_at_zero;
 mod hidden_characters;
 mod impact;
 mod indeterminate;
+mod joined_at_the_start;
 mod landings;
 mod letting_go;
 mod lifted_boxes;

@@ -5,12 +5,12 @@
 use super::equilibrium_part::NOISE;
 use crate::constraints::islands::IslandLink;
 use crate::constraints::spring_network::{NetworkEnd, NetworkSpring, Twist};
-use crate::constraints::{Row, RowKind};
+use crate::constraints::{Row, RowKind, RowSide};
 use crate::world::Bodies;
 
-/// The spring of a row is stiffer than the contacts of its bodies by this factor. Each round reduces gaps by about as much. A greater
-/// one leaves more rounding in the forces.
-const STIFFER: f64 = 100.0;
+/// The spring of a row is stiffer than the contacts of its bodies by this factor. Each round reduces gaps by about as much: rounding is
+/// reached in twenty. A greater one leaves more rounding in the forces.
+const STIFFER: f64 = 8.0;
 
 /// A row with a bound bears this share of it at most, as friction bears of its cone.
 const OF_BOUND: f64 = 1.0 - 1e-3;
@@ -58,9 +58,14 @@ impl JointRow {
         still && along && self.row.rate == 0.0 && !self.row.grounded
     }
 
-    /// Takes a stiffness for bodies whose contacts swing with the square of this angular frequency at most, in 1/s2.
-    pub fn stiffen(&mut self, fastest: f64, bodies: &Bodies) {
-        self.stiffness = STIFFER * fastest / self.row.response(&self.row, bodies);
+    /// Takes its stiffness. `stiffest`: the greatest sum in N/m of the contacts of a body. They resist a turn at the size of the body.
+    pub fn stiffen(&mut self, stiffest: f64, bodies: &Bodies) {
+        let size = |side: &RowSide| {
+            let extent = bodies.extent(side.body);
+            side.direction.length_squared() + if extent > 0.0 { (side.lever / extent).powi(2) } else { 0.0 }
+        };
+        let greatest = self.row.sides.iter().flatten().map(size).fold(f64::MIN_POSITIVE, f64::max);
+        self.stiffness = STIFFER * stiffest / greatest;
     }
 
     /// Takes up the present places, and the force of its spring there. `None`: the joints have other rows than at the start.

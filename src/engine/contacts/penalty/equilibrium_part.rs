@@ -164,12 +164,6 @@ impl Part {
         }
     }
 
-    /// The square of the angular frequency in 1/s2 with which its bodies would swing on its spring.
-    pub fn rate(&self, bodies: &Bodies) -> f64 {
-        let other = self.other.map_or(0.0, |body| bodies.inverse_mass(body));
-        self.law.stiffness * (bodies.inverse_mass(self.own) + other)
-    }
-
     /// Whether the sides touch as the scene places them.
     pub fn touches_as_placed(&self) -> bool {
         self.began >= -self.touch

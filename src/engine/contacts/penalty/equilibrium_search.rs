@@ -136,8 +136,15 @@ impl Search {
             if !stand {
                 continue;
             }
-            let fastest = parts.iter().map(|part| part.rate(bodies)).fold(0.0, f64::max);
-            joints.iter_mut().for_each(|joint| joint.stiffen(fastest, bodies));
+            if !joints.is_empty() {
+                let mut sums = vec![0.0; members.len()];
+                for part in &parts {
+                    let ends = [Some(part.own), part.other].into_iter().flatten();
+                    ends.flat_map(|body| members.binary_search(&body)).for_each(|end| sums[end] += part.law.stiffness);
+                }
+                let stiffest = sums.into_iter().fold(0.0, f64::max);
+                joints.iter_mut().for_each(|joint| joint.stiffen(stiffest, bodies));
+            }
             for (index, &body) in members.iter().enumerate() {
                 self.place[body] = (self.islands.len() as u32, index as u32);
             }
@@ -280,7 +287,10 @@ impl Search {
         let steady: Vec<NetworkSpring> = self.springs.iter().flat_map(|spring| of_scene(spring, index)).collect();
         let network = |parts: &[Part], all: bool| -> Vec<NetworkSpring> {
             let touching = parts.iter().zip(&springs).filter(|(part, _)| part.now.closed);
-            touching.flat_map(|(part, springs)| part.holding(springs, all)).chain(rigid.iter().copied()).collect()
+            touching.flat_map(|(part, springs)| part.holding(springs, all)).collect()
+        };
+        let with = |springs: &[NetworkSpring], others: &[NetworkSpring]| -> Vec<NetworkSpring> {
+            springs.iter().chain(&rigid).chain(others).copied().collect()
         };
         let closed = joints.iter().all(JointRow::is_closed);
         let lacks = |force: &Twist, body: usize| force.linear.length().max(force.angular.abs() / extent(body));
@@ -301,15 +311,14 @@ impl Search {
         joints.iter().zip(&rigid).for_each(|(joint, spring)| joint.close(spring, &mut forces));
         if !island.moves {
             // Contacts decide whether a body is held. Then springs of the scene take their share of the loads.
-            found = spring_network::solve(&held, &forces, &mut self.work);
+            found = spring_network::solve(&with(&held, &[]), &forces, &mut self.work);
             if found.is_ok() && !steady.is_empty() {
-                let with_scene: Vec<_> = held.iter().chain(&steady).copied().collect();
-                found = spring_network::solve(&with_scene, &forces, &mut self.work);
+                found = spring_network::solve(&with(&held, &steady), &forces, &mut self.work);
             }
             let all = network(parts, true);
             if found == Err(Unsolved::Free) && held.len() < all.len() && island.retries < RETRIES {
                 island.retries += 1;
-                found = spring_network::solve(&all, &forces, &mut self.work);
+                found = spring_network::solve(&with(&all, &[]), &forces, &mut self.work);
             }
         }
         if found == Err(Unsolved::Free) {
@@ -317,7 +326,7 @@ impl Search {
             let masses: Vec<_> = members.iter().map(|&body| (bodies.mass[body], bodies.inertia[body])).collect();
             let extents: Vec<f64> = members.iter().map(|&body| extent(body)).collect();
             let mut agree = true;
-            found = spring_network::relieve(&held, &masses, &mut forces, &mut self.work).map(|relief| {
+            found = spring_network::relieve((&held, &rigid), &masses, &mut forces, &mut self.work).map(|relief| {
                 let Relief { accelerations, mut displacements } = relief;
                 let mut clear = 0.0_f64;
                 for (part, springs) in parts.iter_mut().zip(&springs) {

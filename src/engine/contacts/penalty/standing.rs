@@ -80,8 +80,8 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
     }
 }
 
-/// Holds the friction of a contact that is held along its normal, if its sides neither move nor accelerate along the surface.
-/// Other contacts hold them. A spring would keep its force while theirs change, and they would slip below the sum of all cones.
+/// Holds the friction of a contact whose normal is held, if its sides neither move nor accelerate along the surface. Other
+/// contacts hold them. A spring would keep its force while theirs change, and they would slip below the sum of all cones.
 /// Says whether it is held now.
 fn hold_friction(contact: &mut Contact, law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> bool {
     let sticks = contact.mode == Mode::Hold && contact.tangential.grip == Grip::Stick;
