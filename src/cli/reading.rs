@@ -1,4 +1,4 @@
-//! A sign of life on standard error, if that is a terminal and a scene takes long to read.
+//! A sign of life on standard error while a scene is read and prepared. On a terminal it shows after a second. Elsewhere lines tell of it.
 
 use std::io::IsTerminal;
 use std::sync::mpsc::{RecvTimeoutError, Sender, channel};
@@ -6,6 +6,8 @@ use std::thread::JoinHandle;
 use std::time::{Duration, Instant};
 
 use indicatif::ProgressBar;
+
+use super::progress_bar::Lines;
 
 /// The time before the first sign, and between two of them.
 const STEP: Duration = Duration::from_secs(1);
@@ -20,12 +22,17 @@ impl Reading {
     /// Begins now.
     pub fn begin() -> Self {
         if !std::io::stderr().is_terminal() {
-            return Self { done: None, thread: None };
+            let lines = Lines::begin();
+            return Self::show_each(STEP, move |_| {
+                if let Some(since) = lines.due() {
+                    eprintln!("progress: {}", message(since));
+                }
+            });
         }
         let mut bar = None;
         Self::show_each(STEP, move |since| {
             let bar = bar.get_or_insert_with(ProgressBar::new_spinner);
-            bar.set_message(format!("reading the scene, {} s", since.as_secs()));
+            bar.set_message(message(since));
             bar.tick();
         })
     }
@@ -41,6 +48,11 @@ impl Reading {
         });
         Self { done: Some(done), thread: Some(thread) }
     }
+}
+
+/// A tolerance finds its steps before the run, which takes most of the time.
+fn message(since: Duration) -> String {
+    format!("reading the scene and finding its steps, {} s", since.as_secs())
 }
 
 impl Drop for Reading {
