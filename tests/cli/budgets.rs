@@ -51,7 +51,7 @@ fn a_heap_that_comes_together_in_a_run_ends_it_before_memory_does() {
         let said = String::from_utf8(output.stderr).unwrap();
         assert_eq!(output.status.code(), Some(3), "{method}: {said:.2000}");
         assert!(start.elapsed() < Duration::from_secs(30), "{method}: {:?}", start.elapsed());
-        let why = "error: scene.ron: the run went wrong: more than 1048576 pairs of atoms lie near each other, most of them of `b_";
+        let why = "error: scene.ron: the run went wrong: more than 524288 pairs of atoms lie near each other, most of them of `b_";
         assert!(said.contains(why) && said.contains("help: use fewer bodies"), "{method}: {said}");
     }
 }

@@ -43,6 +43,19 @@ impl<'de> Deserialize<'de> for Partner {
     }
 }
 
+/// Reads the name of the body at end `a`, which is never the world.
+///
+/// # Errors
+/// If the scene gives anything but a name.
+pub(super) fn body_at_a<'de, R: Deserializer<'de>>(reader: R) -> Result<String, R::Error> {
+    match Partner::deserialize(reader)? {
+        Partner::Body(name) => Ok(name),
+        Partner::World => Err(de::Error::custom(
+            "expected the name of a body such as \"ball\". Only `b` may be `World`: exchange the two ends",
+        )),
+    }
+}
+
 impl JsonSchema for Partner {
     fn inline_schema() -> bool {
         true

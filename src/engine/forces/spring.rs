@@ -25,6 +25,7 @@ use crate::tick::{Dependence, Energies, ForceOn, ForcePart, LoadErrors, Loss, Mo
 #[serde(deny_unknown_fields)]
 struct Spring {
     /// The body at one end.
+    #[serde(deserialize_with = "link::body_at_a")]
     a: String,
     /// The body at the other end, or `World`.
     b: Partner,

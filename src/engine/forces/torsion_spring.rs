@@ -22,6 +22,7 @@ use crate::world::Bodies;
 #[serde(deny_unknown_fields)]
 struct TorsionSpring {
     /// The body on one side.
+    #[serde(deserialize_with = "link::body_at_a")]
     a: String,
     /// The body on the other side, or `World`, which never turns.
     b: Partner,

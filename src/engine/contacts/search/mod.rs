@@ -250,8 +250,8 @@ impl PairSearch {
     }
 }
 
-/// Pairs take 200 to 700 bytes each: so many take less than a gigabyte.
-const MOST_PAIRS: usize = 1 << 20;
+/// Pairs take 200 to 700 bytes each. So many of a run, and of another one that is compared with it, take less than a gigabyte.
+const MOST_PAIRS: usize = 1 << 19;
 /// A sufficient number of pairs for each atom. In the densest packing of discs the widest margin of `bounds` gives 55.
 const PAIRS_PER_ATOM: usize = 64;
 
