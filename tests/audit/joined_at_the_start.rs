@@ -163,21 +163,23 @@ fn a_cart_rolls_down_a_slope_from_the_first_moment_on() {
     }
 }
 
-/// A slide lets its box sink by less than its springs give. At the limit it stands, with the rest of its weight.
+/// A slide lets its box sink by less than its springs give, and a taut rope by nothing. There it stands, with the rest of its weight.
 #[test]
 fn a_joint_is_never_put_beyond_its_limit() {
     const LOWEST: f64 = -1e-5;
-    let joint =
-        format!("joints: [Prismatic(a: World, anchor_a: (0, 0.1), b: \"a\", axis: (0, 1), limits: ({LOWEST:?}, 1))]");
+    let slide = format!("Prismatic(a: World, anchor_a: (0, 0.1), b: \"a\", axis: (0, 1), limits: ({LOWEST:?}, 1))");
+    let rope = "Rope(a: World, anchor_a: (0, 0.7), b: \"a\", anchor_b: (0, 0.1))".to_owned();
     let block = Block { x: 0.0, width: 0.5, height: 0.2, mass: 2.0 };
-    let things = format!("{FLOOR}, bodies: [{}], {joint}", block.text("a"));
-    let text = scene("", "stiffness: 1e5, restitution: 0, friction: 0.4", &things, 0.2);
-    for (name, overrides) in ways() {
-        let mut simulation = load(&text, &overrides);
-        let begin = simulation.bodies().position[0];
-        assert_eq!(begin, DVec2::new(0.0, 0.1), "{name}");
-        simulation.run_to_end().unwrap_or_else(|failure| panic!("{failure}\n{text}"));
-        let sunk = simulation.bodies().position[0].y - begin.y;
-        assert!((sunk - LOWEST).abs() < 1e-9, "{name}: {sunk} m");
+    for (joint, lowest) in [(slide, LOWEST), (rope, 0.0)] {
+        let things = format!("{FLOOR}, bodies: [{}], joints: [{joint}]", block.text("a"));
+        let text = scene("", "stiffness: 1e5, restitution: 0, friction: 0.4", &things, 0.2);
+        for (name, overrides) in ways() {
+            let mut simulation = load(&text, &overrides);
+            let begin = simulation.bodies().position[0];
+            assert_eq!(begin, DVec2::new(0.0, 0.1), "{name}, {joint}");
+            simulation.run_to_end().unwrap_or_else(|failure| panic!("{failure}\n{text}"));
+            let sunk = simulation.bodies().position[0].y - begin.y;
+            assert!((sunk - lowest).abs() < 1e-9, "{name}, {joint}: {sunk} m");
+        }
     }
 }

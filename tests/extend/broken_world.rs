@@ -314,7 +314,7 @@ fn heaps_that_plugins_make_end_the_run() {
             let changed = simulation.bodies().atom_radius[0];
             if changed == 100.0 || simulation.bodies().position[0] == DVec2::ONE {
                 let failure = ran.unwrap_err();
-                assert_eq!(failure.wrong, FailureKind::Pairs(1 << 20));
+                assert_eq!(failure.wrong, FailureKind::Pairs(1 << 19));
                 assert_eq!(failure.body, "b_0_0");
                 assert!(simulation.snapshot().is_err());
             }

@@ -201,7 +201,7 @@ impl Search {
         state.models().for_each(|model| model.stiffness(state, &mut self.springs));
         let mut islands = std::mem::take(&mut self.islands);
         let joined = islands.iter().any(|island| !island.joints.is_empty());
-        let least_room = if joined { state.least_room_at_start() } else { 0.0 };
+        let least_room = state.least_room_at_start();
         for round in 0..ROUNDS {
             if round > 0 {
                 state.loads_at_start(loads);
@@ -222,11 +222,9 @@ impl Search {
                 island.leave(Outcome::Bound, &mut state.bodies);
             }
         }
-        if joined && state.least_room_at_start() < least_room.min(0.0) {
-            // A joint beyond its limit would spring back.
-            for island in islands.iter_mut().filter(|island| !island.joints.is_empty()) {
-                island.leave(Outcome::AsPlaced, &mut state.bodies);
-            }
+        if state.least_room_at_start() < least_room.min(0.0) {
+            // A joint beyond its limit would spring back, and a rope beyond its length.
+            islands.iter_mut().for_each(|island| island.leave(Outcome::AsPlaced, &mut state.bodies));
         }
         self.islands = islands;
         // Atoms follow the places in which bodies stay.
