@@ -4,9 +4,10 @@
 
 use super::State;
 
-/// The work for each atom, each row of the constraints, and each pair of neighbours.
+/// The work for each atom, each row of the constraints, and each pair of neighbours. Chains of 5 to 400 links and a driven cart were
+/// measured.
 const PER_ATOM: f64 = 0.04;
-const PER_ROW: f64 = 0.5;
+const PER_ROW: f64 = 1.5;
 const PER_PAIR: f64 = 0.1;
 /// The same for each pair that touches: the search for rest takes most of it.
 const PER_CONTACT: f64 = 1.0;

@@ -2,7 +2,7 @@
 //! each round that force takes over what the spring bears. So the gap of the joint vanishes, and the force remains (method of
 //! multipliers: Hestenes 1969, Powell 1969).
 
-use super::equilibrium_part::NOISE;
+use super::equilibrium_part::{NOISE, OF_BOUND};
 use crate::constraints::islands::IslandLink;
 use crate::constraints::spring_network::{NetworkEnd, NetworkSpring, Twist};
 use crate::constraints::{Row, RowKind, RowSide};
@@ -11,9 +11,6 @@ use crate::world::Bodies;
 /// The spring of a row is stiffer than the contacts of its bodies by this factor. Each round reduces gaps by about as much: rounding is
 /// reached in twenty. A greater one leaves more rounding in the forces.
 const STIFFER: f64 = 8.0;
-
-/// A row with a bound bears this share of it at most, as friction bears of its cone.
-const OF_BOUND: f64 = 1.0 - 1e-3;
 
 /// A row of a joint.
 pub(super) struct JointRow {

@@ -12,8 +12,8 @@ use crate::contacts::geometry::PairGeometry;
 use crate::tick::SteadySpring;
 use crate::world::Bodies;
 
-/// Friction that holds bears this share of its cone at most. The rest keeps rounding of later forces inside the cone.
-const OF_CONE: f64 = 1.0 - 1e-3;
+/// Friction, or a joint that gives way, bears this share of its bound at most. The rest keeps rounding of later forces inside.
+pub(super) const OF_BOUND: f64 = 1.0 - 1e-3;
 
 /// The share of the gap of sides that touch, up to which an overlap bears nothing. It leads to the last of nine digits of the size.
 const BEARS_NOTHING: f64 = 5e-5;
@@ -281,7 +281,7 @@ impl Stretch {
             return true;
         }
         let moving = round == Round::Moving;
-        let most = OF_CONE * law.friction_static * normal / law.stiffness;
+        let most = OF_BOUND * law.friction_static * normal / law.stiffness;
         self.slips = self.slips && moving || self.elongation.abs() > most;
         if self.slips {
             let slipped = if moving { law.slipped(normal) } else { most };

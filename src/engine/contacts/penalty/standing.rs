@@ -5,7 +5,6 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
-use super::contact_list::Edited;
 use super::coulomb::{Grip, ROUNDING};
 use super::indicators::SliderMotion;
 use super::normal::{Mode, NormalForce};
@@ -85,17 +84,15 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
 /// Says whether it is held now.
 fn hold_friction(contact: &mut Contact, law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> bool {
     let sticks = contact.mode == Mode::Hold && contact.tangential.grip == Grip::Stick;
-    if !sticks || law.exact || !law.tangential().acts() {
+    if !sticks || law.exact {
         return false;
     }
     let motion = SliderMotion::along(geometry, law.shares(), bodies);
     let pushed = motion.mobility * law.stiffness * geometry.overlap;
-    let stands = motion.is_still() && motion.rate.abs() <= STANDS * pushed;
-    if stands {
-        let force = contact.tangential.force(&law.tangential());
-        (contact.tangential.grip, contact.tangential.held) = (Grip::Hold, force);
+    if motion.rate.abs() <= STANDS * pushed {
+        contact.tangential.hold_still(&law.tangential(), &motion);
     }
-    stands
+    contact.tangential.grip == Grip::Hold
 }
 
 /// Holds the contacts whose sides neither move nor accelerate along the normal. Returns whether there were any.
@@ -104,36 +101,41 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
         return false;
     }
     let PenaltyContacts { laws, atoms, surfaces, released, .. } = contacts;
-    let stands = |contact: &Contact, geometry: &PairGeometry| {
-        let law = laws.get(contact.law);
-        let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
-        is_still::<N>(contact, law, geometry) && geometry.parting_rate(law.shares(), bodies).abs() <= STANDS * pushed
-    };
     let count = atoms.len();
     let touches = |index: usize| match index.checked_sub(count) {
         Some(surface) => surface < surfaces.len() && surfaces.is_touching(surface),
         None => atoms.is_touching(index),
     };
     released.retain(|&released| touches(released as usize));
-    let mut some = false;
-    let mut hold = |index: usize, contact: &mut Edited, geometry: &PairGeometry| {
+    let mut held = |index: usize, mut contact: Contact, geometry: &PairGeometry| {
+        let law = laws.get(contact.law);
+        let still = is_still::<N>(&contact, law, geometry);
         let waits = released.contains(&(index as u32));
-        if waits && !is_still::<N>(contact, laws.get(contact.law), geometry) {
+        if waits && !still {
             released.retain(|&released| released as usize != index);
         }
-        if !waits && stands(contact, geometry) {
+        let pushed = geometry.approach(bodies).mobility * law.stiffness * geometry.overlap;
+        let stands = still && !waits && geometry.parting_rate(law.shares(), bodies).abs() <= STANDS * pushed;
+        if stands {
             contact.mode = Mode::Hold;
+        }
+        let grips = hold_friction(&mut contact, law, geometry, bodies);
+        (stands || grips).then_some(contact)
+    };
+    let mut some = false;
+    for index in atoms.touching().collect::<Vec<_>>() {
+        let geometry = PairGeometry::atoms(bodies, index, pairs.atoms[index]);
+        if let Some(contact) = held(index, atoms.get(index), &geometry) {
+            atoms.set(index, &contact);
             some = true;
         }
-        let law = laws.get(contact.law);
-        some |= hold_friction(contact, law, geometry, bodies);
-    };
-    for index in atoms.touching().collect::<Vec<_>>() {
-        hold(index, &mut atoms.edit(index), &PairGeometry::atoms(bodies, index, pairs.atoms[index]));
     }
     for index in surfaces.touching().collect::<Vec<_>>() {
         let geometry = PairGeometry::surface(bodies, index, pairs.surfaces[index]);
-        hold(count + index, &mut surfaces.edit(index), &geometry);
+        if let Some(contact) = held(count + index, surfaces.get(index), &geometry) {
+            surfaces.set(index, &contact);
+            some = true;
+        }
     }
     some
 }
