@@ -53,7 +53,7 @@ impl Check {
             return Exit::Usage;
         }
         let check = |name: &String| {
-            let request = Request { name, json: self.json };
+            let request = Request { name, json: self.json, silent: self.quiet || self.json };
             let overrides = Overrides { untried: !self.run, ..self.overrides.overrides() };
             match request.load(&self.overrides.settings, &overrides) {
                 Err(exit) => exit,

@@ -29,6 +29,8 @@ pub(super) struct Request<'a> {
     pub name: &'a str,
     /// Whether results and mistakes are printed as JSON.
     pub json: bool,
+    /// Whether nothing tells of the progress of long work.
+    pub silent: bool,
 }
 
 impl Request<'_> {
@@ -45,7 +47,7 @@ impl Request<'_> {
         overrides: &Overrides,
     ) -> Result<(Source, Simulation), SceneErrors> {
         let source = source(self.name)?.with_settings(settings);
-        let _sign = Reading::begin();
+        let _sign = Reading::begin(self.silent);
         let simulation = Simulation::load_with(&source, overrides, author::plugin)?;
         Ok((source, simulation))
     }

@@ -85,7 +85,7 @@ const MOST_PLOTS: usize = 12;
 
 impl PlotCommand {
     pub(super) fn execute(self) -> Exit {
-        let request = Request { name: &self.source, json: false };
+        let request = Request { name: &self.source, json: false, silent: self.quiet };
         let path = self.output.clone().unwrap_or_else(|| PathBuf::from(format!("{}.png", request.stem())));
         if let Some(message) = objection(request, &path) {
             return request.usage(&message);

@@ -19,8 +19,11 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Begins now.
-    pub fn begin() -> Self {
+    /// Begins now. Nothing shows a `silent` one.
+    pub fn begin(silent: bool) -> Self {
+        if silent {
+            return Self { done: None, thread: None };
+        }
         if !std::io::stderr().is_terminal() {
             let lines = Lines::begin();
             return Self::show_each(STEP, move |_| {

@@ -94,7 +94,7 @@ impl RunArguments {
     }
 
     pub(super) fn execute(self) -> Exit {
-        let request = Request { name: &self.scene, json: self.json };
+        let request = Request { name: &self.scene, json: self.json, silent: self.quiet || self.json };
         if let Some(message) = self.output.as_deref().and_then(|path| objection(request, path)) {
             return request.usage(&message);
         }

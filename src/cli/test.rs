@@ -157,7 +157,7 @@ impl Test {
         let mut candidates: Vec<Candidate> = Vec::new();
         for place in places {
             if !Path::new(place).is_dir() {
-                if (Request { name: place, json: false }).is_missing() {
+                if (Request { name: place, json: false, silent: true }).is_missing() {
                     return Err(format!("there is no scene and no folder `{place}`"));
                 }
                 candidates.push(Candidate { name: place.clone(), found: false });
@@ -181,7 +181,7 @@ impl Test {
         {
             return Tried::Skipped(other);
         }
-        let request = Request { name, json: self.json };
+        let request = Request { name, json: self.json, silent: self.quiet || self.json };
         Tried::Trial(Box::new(match request.read(&self.overrides.settings, &self.overrides.overrides()) {
             Err(errors) => Trial::refused(errors),
             Ok((_, mut simulation)) => {

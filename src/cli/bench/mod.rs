@@ -143,7 +143,7 @@ impl Bench {
 
     /// Tells why nothing was measured.
     fn tell(&self, scene: &str, stopped: &Stopped) -> Exit {
-        let request = Request { name: scene, json: self.json };
+        let request = Request { name: scene, json: self.json, silent: self.json };
         match stopped {
             Stopped::Scene(errors) => request.refuse_scene(errors),
             Stopped::Ended(end) => {

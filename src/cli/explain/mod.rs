@@ -53,10 +53,10 @@ impl Explain {
         if let [scene, name] = &self.what[..]
             && is_scene(scene)
         {
-            return channel::of_scene(Request { name: scene, json: false }, &self.overrides, name);
+            return channel::of_scene(Request { name: scene, json: false, silent: false }, &self.overrides, name);
         }
         if is_scene(&what) {
-            return self.scene(Request { name: &what, json: self.json });
+            return self.scene(Request { name: &what, json: self.json, silent: self.json });
         }
         if self.json {
             say("error: --json is for scenes; `jostle list --json` tells names to programs");

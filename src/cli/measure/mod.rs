@@ -95,7 +95,7 @@ reference run, 3 the reference run or all settings go wrong. Even then, the outp
 
 impl Measure {
     pub(super) fn execute(self) -> Exit {
-        let request = Request { name: &self.scene, json: self.json };
+        let request = Request { name: &self.scene, json: self.json, silent: self.json };
         if let Some(message) = self.output.iter().find_map(|path| objection(request, path)) {
             return request.usage(&message);
         }

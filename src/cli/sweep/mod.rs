@@ -124,7 +124,7 @@ impl Sweep {
     fn sweep(&self, scene: &str, folder: &Path) -> Result<Exit, String> {
         self.contradiction().map_or(Ok(()), Err)?;
         let grid = Grid::new(&self.vary)?;
-        let request = Request { name: scene, json: self.json };
+        let request = Request { name: scene, json: self.json, silent: self.quiet || self.json };
         let source = match load::source(scene) {
             Ok(source) => source.with_settings(&self.overrides.settings),
             Err(errors) => return Ok(request.refuse_scene(&errors)),
@@ -311,7 +311,7 @@ impl Sweep {
         let overrides = self.overrides.overrides();
         let path = film_of(folder, run, grid.runs);
         let name = format!("{} ({label})", scene.name);
-        let request = Request { name: &name, json: false };
+        let request = Request { name: &name, json: false, silent: true };
         let (Ok(mut simulation), Ok(target)) =
             (Simulation::load_with(scene, &overrides, author::plugin), OutputTarget::new(path))
         else {
