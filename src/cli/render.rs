@@ -94,7 +94,8 @@ Examples:
 
 impl Render {
     pub(super) fn execute(self) -> Exit {
-        let scenes: Vec<Request> = self.scenes.iter().map(|name| Request { name, json: self.json, silent: self.quiet || self.json }).collect();
+        let scenes: Vec<Request> =
+            self.scenes.iter().map(|name| Request { name, json: self.json, silent: self.quiet || self.json }).collect();
         let wish = Wish { output: self.output.as_deref(), still: self.still(), png: self.png };
         match places(&scenes, &wish) {
             Ok(places) => {

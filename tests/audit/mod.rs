@@ -25,6 +25,7 @@ mod joined_at_the_start;
 mod landings;
 mod letting_go;
 mod lifted_boxes;
+mod loads_that_grow;
 mod loose_tolerances;
 mod messages;
 mod narrow_pulses;

@@ -12,7 +12,7 @@ use crate::shapes::outline::OutlineShape;
 use crate::shapes::{AtomShape, AtomSpec};
 use crate::world::{IgnoredPairs, Kinematic, material, sections};
 
-use crate::world::sections::{KinematicEntry, ignored};
+use crate::world::sections::{KinematicEntry, MOST_ATOMS, ignored};
 
 pub use crate::shapes::mass_properties::{Datum, InertiaRule};
 
@@ -86,17 +86,23 @@ impl Section for BodiesSection {
 
     /// Declares the bodies' names.
     fn declare(&self, outline: &mut Outline) {
+        let fit = self.fitting().len();
         for (index, body) in self.0.iter().enumerate() {
             outline.declare(NameKind::BODY, &body.name, &format!("[{index}].name"));
-            if body.touches() {
+            if index < fit && body.touches() {
                 body.occupy(outline);
             }
+        }
+        if fit < self.0.len() {
+            let message =
+                format!("bodies must have at most {MOST_ATOMS} atoms and corners in all: with this one they have more");
+            outline.refuse(&format!("[{fit}]"), message).help("use fewer bodies, or simpler ones");
         }
     }
 
     /// Reports wrong atoms, masses and positions, and unknown materials.
     fn check(&self, outline: &Outline, report: &mut Diagnostics) {
-        for (index, body) in self.0.iter().enumerate() {
+        for (index, body) in self.fitting().iter().enumerate() {
             report.within(&format!("[{index}]"), |report| body.check(outline, report));
         }
         ignored::check(&self.0, report);
@@ -108,6 +114,18 @@ impl Section for BodiesSection {
             app.world_mut().get_resource_or_init::<IgnoredPairs>().extend(apart);
         }
         sections::spawn_bodies(self, outline, app.world_mut());
+    }
+}
+
+impl BodiesSection {
+    /// The bodies before those that are too many.
+    fn fitting(&self) -> &[BodyEntry] {
+        let mut atoms = 0;
+        let too_many = self.0.iter().position(|body| {
+            atoms += sections::size(body.atoms.as_ref(), body.shape.as_ref());
+            atoms > MOST_ATOMS
+        });
+        &self.0[..too_many.unwrap_or(self.0.len())]
     }
 }
 

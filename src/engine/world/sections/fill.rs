@@ -14,8 +14,10 @@ use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section, number};
 use crate::shapes::mass_properties::{self, InertiaRule, MassProperties};
 use crate::shapes::outline::OutlineShape;
 use crate::shapes::{AtomShape, AtomSpec};
+use crate::world::sections::MOST_ATOMS;
 use crate::world::sections::Region;
 use crate::world::sections::size_distribution::Radii;
+use crate::world::sections::taken::TakenPlaces;
 use crate::world::{material, sections};
 
 /// The largest number of bodies of all entries together. A body of one atom takes some 0.6 kB while a scene is read. A
@@ -97,14 +99,17 @@ impl FillSection {
     /// region is full, or too narrow for random tries. `check` reports that. Lists end after ten that are too short.
     /// The outline knows the occupied places.
     pub fn place(&self, outline: &Outline) -> Vec<Vec<Placed>> {
-        let mut taken = outline.obstacles().to_vec();
+        let mut taken = TakenPlaces::new(self.0.iter().map(|entry| entry.within.bounds()));
+        outline.obstacles().iter().for_each(|obstacle| taken.add(*obstacle));
         let (mut all, mut full) = (Vec::new(), 0);
         for entry in &self.0 {
             if full == MOST_FULL {
                 break;
             }
             let placed = entry.place(&taken);
-            taken.extend(placed.iter().map(|body| Obstacle::Disc { center: body.position, radius: body.radius }));
+            for body in &placed {
+                taken.add(Obstacle::Disc { center: body.position, radius: body.radius });
+            }
             full += usize::from((placed.len() as u64) < entry.count.0);
             all.push(placed);
         }
@@ -138,6 +143,14 @@ impl Section for FillSection {
         let all: u64 = self.0.iter().map(|entry| entry.count.0).fold(0, u64::saturating_add);
         if good && all > LARGEST_COUNT {
             report.error("", format!("must be at most {LARGEST_COUNT} bodies in all, got {all}"));
+            return;
+        }
+        let size = |entry: &FillEntry| sections::size(entry.atoms.as_ref(), entry.shape.as_ref()).max(1);
+        let atoms = self.0.iter().map(|entry| size(entry).saturating_mul(entry.count.0)).fold(0, u64::saturating_add);
+        if good && atoms > MOST_ATOMS {
+            report
+                .error("", format!("must be at most {MOST_ATOMS} atoms and corners in all, got {atoms}"))
+                .help("use fewer bodies, or simpler ones");
             return;
         }
         if !good || !outline.is_complete() {
@@ -258,7 +271,7 @@ impl FillEntry {
     }
 
     /// Places all that find room, the largest first; fewer than there are to be are in no order.
-    fn place(&self, taken: &[Obstacle]) -> Vec<Placed> {
+    fn place(&self, taken: &TakenPlaces) -> Vec<Placed> {
         let radii = self.radii();
         let mut order: Vec<u32> = (0..radii.len() as u32).collect();
         // Equal ones keep their order.
@@ -274,7 +287,7 @@ impl FillEntry {
     }
 
     /// Places bodies of these radii, which descend, until one finds no room.
-    fn place_sizes(&self, radii: impl DoubleEndedIterator<Item = f64> + Clone, taken: &[Obstacle]) -> Vec<Placed> {
+    fn place_sizes(&self, radii: impl DoubleEndedIterator<Item = f64> + Clone, taken: &TakenPlaces) -> Vec<Placed> {
         let mut placed = Vec::new();
         let (Some(largest), Some(least)) = (radii.clone().next(), radii.clone().next_back()) else { return placed };
         let bounds = self.within.bounds();
@@ -283,11 +296,11 @@ impl FillEntry {
         if !(low.x <= high.x && low.y <= high.y) {
             return placed;
         }
-        let standing = taken.len() as u64 + self.count.0.min(LARGEST_COUNT);
-        let mut grid = Grid::new(room(least), largest, self.gap.si(), standing);
-        for obstacle in taken {
-            grid.insert(*obstacle);
-        }
+        let gap = self.gap.si();
+        let near: Vec<Obstacle> = taken.near(bounds, largest + gap).collect();
+        let standing = near.len() as u64 + self.count.0.min(LARGEST_COUNT);
+        let mut grid = Grid::new(room(least), largest, gap, standing);
+        near.into_iter().for_each(|obstacle| grid.insert(obstacle));
         let mut random = ChaCha8Rng::seed_from_u64(self.seed.0);
         // The upper 53 bits: a number from 0 up to, not including, 1, the same on every machine.
         let mut chance = || (random.next_u64() >> 11) as f64 / (1_u64 << 53) as f64;

@@ -7,6 +7,7 @@ pub mod kinematic;
 pub mod packing;
 pub mod region;
 pub mod size_distribution;
+mod taken;
 pub mod walls;
 
 pub use bodies::{BodiesSection, BodyEntry, Datum, InertiaRule};
@@ -27,7 +28,18 @@ use super::{Atom, Intangible, Line, Motion, Name, NewBody, Origin, Wall};
 use crate::scene::name_series::of_series;
 use crate::scene::{NameKind, Outline, SceneAppExt, register_embedding};
 use crate::shapes::mass_properties::MassProperties;
-use crate::shapes::{AtomSpec, silhouette, svg};
+use crate::shapes::outline::OutlineShape;
+use crate::shapes::{AtomShape, AtomSpec, silhouette, svg};
+
+/// The largest number of atoms and corners of all bodies of a section. Each takes about a kilobyte.
+pub(super) const MOST_ATOMS: u64 = 1_000_000;
+
+/// The number of atoms and corners of a body.
+fn size(atoms: Option<&AtomShape>, shape: Option<&OutlineShape>) -> u64 {
+    let hulls = shape.map_or_else(Vec::new, |shape| shape.parts().parts).into_iter().flat_map(|part| part.hulls);
+    let corners: usize = hulls.map(|hull| hull.corners().len()).sum();
+    (atoms.map_or(0, |atoms| atoms.specs().len()) + corners) as u64
+}
 
 /// Registers the sections. Materials come first: the others name them.
 pub fn plugin(app: &mut App) {

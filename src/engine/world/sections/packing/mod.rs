@@ -11,13 +11,11 @@ use serde::Deserialize;
 
 use crate::scene::name_series;
 use crate::scene::{Diagnostics, NameKind, Obstacle, Outline, Section};
+use crate::world::sections::MOST_ATOMS;
 use crate::world::{material, sections};
 
 pub(in crate::world) use embed::EMBEDDING;
 pub use packing_table::{PackedBody, PackingTable, TableMistake};
-
-/// The largest number of atoms of all entries together.
-pub const MOST_ATOMS: u64 = 1_000_000;
 
 /// Bodies from one table.
 #[derive(Clone, Debug, Deserialize, JsonSchema)]
