@@ -15,6 +15,18 @@ use crate::moments::{free_boundary, middle, thick, tie};
 use crate::nearest::nearest;
 use crate::pose::{BoundingBox, Pose};
 
+/// Whether more than `most` pairs of hulls of one body lie so near each other that their boxes touch.
+pub fn has_more_near_pairs(hulls: &[&Hull], most: usize) -> bool {
+    let bounds = |hull: &&Hull| BoundingBox::of(hull, &Pose::default());
+    let boxes = BoxTree::new(hulls.iter().map(bounds));
+    let mut pairs = 0;
+    hulls.iter().any(|hull| {
+        // Each pair is seen from both sides, and each hull touches itself.
+        pairs += boxes.touching(&bounds(hull)).len() - 1;
+        pairs > 2 * most
+    })
+}
+
 /// Marks the inner sides of the hulls of one body. Marks the corners too that are not convex vertices of its outline.
 pub fn mark_inner(hulls: &mut [Hull]) {
     if hulls.len() < 2 {

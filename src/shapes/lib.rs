@@ -25,7 +25,7 @@ mod simple_polygon;
 mod time_of_impact;
 mod voronoi_region;
 
-pub use compound::mark_inner;
+pub use compound::{has_more_near_pairs, mark_inner};
 pub use error::{Mended, ShapeError};
 pub use gear::Gear;
 pub use hull::{Free, Hull, HullSide};

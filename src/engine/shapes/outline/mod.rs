@@ -22,8 +22,11 @@ use serde::Deserialize;
 
 use crate::scene::Diagnostics;
 
-/// Each shape of a compound is compared with each other: more of them would take minutes to read.
+/// The largest number of shapes of a compound.
 const MOST_SHAPES: usize = 4000;
+
+/// The largest number of pairs of convex parts of a compound whose boxes touch. Each is cut from the other. More would take seconds.
+const MOST_PAIRS: usize = 1 << 18;
 
 /// A convex part of a body, or a concave one in convex pieces.
 #[derive(Clone, Debug, PartialEq)]
@@ -45,6 +48,14 @@ pub struct OutlineParts {
     pub parts: Vec<OutlinePart>,
     /// The corrections of the numbers of the scene.
     pub mended: Vec<String>,
+}
+
+impl OutlineParts {
+    /// Whether too many of its convex parts lie in each other.
+    fn is_crowded(&self) -> bool {
+        let hulls: Vec<&Hull> = self.parts.iter().flat_map(|part| &part.hulls).collect();
+        shapes::has_more_near_pairs(&hulls, MOST_PAIRS)
+    }
 }
 
 /// The position of a shape in its body, and its mass or density.
@@ -180,6 +191,13 @@ impl OutlineShape {
                 for (index, shape) in shapes.iter().enumerate() {
                     report.within(&format!("[{index}]"), |report| shape.check(report));
                 }
+                if self.made().is_crowded() {
+                    let message = format!(
+                        "in a compound of {} shapes more than {MOST_PAIRS} pairs of convex parts lie in each other",
+                        shapes.len()
+                    );
+                    report.error("", message).help("give it fewer shapes, or draw its outline as one `Polygon`");
+                }
                 return;
             }
             Ok(shape) => shape,
@@ -201,6 +219,11 @@ impl OutlineShape {
 
     /// Its parts; empty if it cannot be made.
     pub fn parts(&self) -> OutlineParts {
+        let parts = self.made();
+        if self.as_sided().is_err() && parts.is_crowded() { OutlineParts::default() } else { parts }
+    }
+
+    fn made(&self) -> OutlineParts {
         let mut parts = OutlineParts::default();
         self.add_to(&mut parts, "");
         parts
