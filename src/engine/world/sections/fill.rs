@@ -145,15 +145,15 @@ impl Section for FillSection {
             report.error("", format!("must be at most {LARGEST_COUNT} bodies in all, got {all}"));
             return;
         }
+        if !good || !outline.is_complete() {
+            return;
+        }
         let size = |entry: &FillEntry| sections::size(entry.atoms.as_ref(), entry.shape.as_ref()).max(1);
         let atoms = self.0.iter().map(|entry| size(entry).saturating_mul(entry.count.0)).fold(0, u64::saturating_add);
-        if good && atoms > MOST_ATOMS {
+        if atoms > MOST_ATOMS {
             report
                 .error("", format!("must be at most {MOST_ATOMS} atoms and corners in all, got {atoms}"))
                 .help("use fewer bodies, or simpler ones");
-            return;
-        }
-        if !good || !outline.is_complete() {
             return;
         }
         for (index, (entry, placed)) in self.0.iter().zip(self.place(outline)).enumerate() {

@@ -1,14 +1,14 @@
-//! The places that are taken at the start, in cells. An entry of `fill` looks only at those near its region. So many entries cost no more
-//! than their number.
+//! The places that are taken at the start, in cells. An entry of `fill` looks only at discs near its region, and at all walls, strips and
+//! large discs. The numbers here decide over time and memory, and over no place.
 
 use glam::DVec2;
 
 use crate::scene::Obstacle;
 
-/// A disc over more cells is large. Every entry looks at it.
+/// A disc over more cells is large. Every entry looks at it, for it would take more memory in cells than its own.
 const MOST_CELLS: usize = 16;
 
-/// Cells for each entry: regions side by side then have cells of their own.
+/// Cells for each entry. Regions side by side then have cells of their own, and all cells take less memory than the entries.
 const PER_ENTRY: usize = 4;
 
 /// Places that are taken.
