@@ -28,7 +28,7 @@ use crate::sensors::{self, Channel};
 use crate::threads::Threads;
 use crate::tick::{
     AfterLoad, Clock, Failure, FailureKind, LoadErrors, Notes, State, TickAppExt, advance, foresee_components,
-    look_inside, open, rebuild, refuse_far_anchors, refuse_not_finite,
+    look_inside, open, rebuild, refuse_far_anchors, refuse_least_inertia, refuse_not_finite,
 };
 use crate::world::hull::MendedShapes;
 use crate::world::{Name, atom};
@@ -398,6 +398,7 @@ pub fn begin(
     sensors::forget_names(world);
     world.resource_mut::<Notes>().0.extend(stiffness);
     refuse_far_anchors(world);
+    refuse_least_inertia(world);
     refuse_not_finite(world);
     world.resource_mut::<State>().foresee_springs();
     let late = world.remove_resource::<LoadErrors>().unwrap_or_default().0;

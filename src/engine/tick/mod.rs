@@ -85,7 +85,7 @@ pub use components::index_of;
 pub use context::Tick;
 pub use differential_equations::{Reach, WorldFlow};
 pub use failure::{Failure, FailureKind};
-pub(crate) use finite_start::{refuse_far_anchors, refuse_not_finite};
+pub(crate) use finite_start::{refuse_far_anchors, refuse_least_inertia, refuse_not_finite};
 pub(crate) use flight_permission::{add_observer, look_at_ticks};
 pub use guard::Created;
 pub use ledger::{Ledger, Rates, Totals};
