@@ -8,6 +8,9 @@ use super::outline::join;
 /// At most this many comparisons of a name with a part of a pattern, which take a few seconds.
 const MOST_COMPARED: usize = 50_000_000;
 
+/// At most this many names that patterns stand for, in all. A sensor takes up to a microsecond and a hundred bytes for each.
+const MOST_MATCHED: usize = 2_000_000;
+
 /// A mistake found by a check. Its place in the text is looked up only when it is shown.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Diagnostic {
@@ -55,6 +58,8 @@ pub struct Diagnostics {
     notes: Vec<String>,
     /// The work of comparing patterns with names.
     compared: usize,
+    /// The names that patterns stand for.
+    matched: usize,
 }
 
 impl Diagnostics {
@@ -94,10 +99,21 @@ impl Diagnostics {
         let before = self.compared;
         self.compared = before.saturating_add(work);
         if self.compared > MOST_COMPARED && before <= MOST_COMPARED {
-            let message = "here patterns and names have become too many to compare each with each";
+            let message = format!("with this one, names are compared with patterns more than {MOST_COMPARED} times");
             self.error(path, message).help("name bodies in fewer patterns: one with `*` may stand for many");
         }
         self.compared <= MOST_COMPARED
+    }
+
+    /// Counts the names that a pattern stands for. If they exceed the bound, that is a mistake, which is reported once.
+    pub(crate) fn may_match(&mut self, path: &str, names: usize) -> bool {
+        let before = self.matched;
+        self.matched = before.saturating_add(names);
+        if self.matched > MOST_MATCHED && before <= MOST_MATCHED {
+            let message = format!("with this one, patterns stand for more than {MOST_MATCHED} names in all");
+            self.error(path, message).help("use fewer patterns with `*`, or let them fit fewer names");
+        }
+        self.matched <= MOST_MATCHED
     }
 
     /// Runs checks whose paths begin at `scope`, such as `"[3]"` or `"atoms"`.

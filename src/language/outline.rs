@@ -264,7 +264,7 @@ impl Outline {
         if found.is_empty() {
             self.report_unknown(&[kind], pattern, path, report);
         }
-        found
+        if report.may_match(path, found.len()) { found } else { Vec::new() }
     }
 
     fn report_unknown(&self, kinds: &[NameKind], name: &str, path: &str, report: &mut Diagnostics) {

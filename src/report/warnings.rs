@@ -84,8 +84,9 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
     let far = far_travel(state).filter(|_| unseen);
     if let Some(far) = far {
         let radii = far.travel / state.bodies().smallest_radius;
+        let often = if radii < 1e4 { format!("{radii:.2}") } else { format!("{radii:.1e}") };
         warnings.push(format!(
-            "`{}` travelled {radii:.2} times the smallest radius in the tick before t = {} s. It may have passed through \
+            "`{}` travelled {often} times the smallest radius in the tick before t = {} s. It may have passed through \
              others unseen{advice}",
             name(far.body),
             number(far.time),

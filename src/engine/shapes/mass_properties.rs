@@ -106,6 +106,25 @@ impl MassProperties {
     }
 }
 
+/// The looks at pairs of discs that a union may take: some seconds. Silhouettes of 5000 atoms take fewer.
+const MOST_LOOKS: usize = 1 << 25;
+
+/// Whether the area that atoms cover together can be found in some time.
+pub fn is_affordable(specs: &[AtomSpec], rule: InertiaRule) -> bool {
+    rule != InertiaRule::Union || !union::takes_more(specs, MOST_LOOKS)
+}
+
+/// Reports atoms that cover too much of each other for [`InertiaRule::Union`]. Says whether there are none.
+pub fn check_union(specs: &[AtomSpec], rule: InertiaRule, report: &mut Diagnostics) -> bool {
+    let affordable = is_affordable(specs, rule);
+    if !affordable {
+        let message =
+            format!("too many of its {} atoms lie in each other to find the area that they cover", specs.len());
+        report.error("inertia", message).help("give the moment of inertia in kg m2, or use fewer or smaller atoms");
+    }
+    affordable
+}
+
 /// Works out mass, centre and inertia. `mass` wins over the sum of the atoms; `density` is the material's, in kg/m2.
 pub fn of(specs: &[AtomSpec], mass: Option<f64>, rule: InertiaRule, density: f64) -> MassProperties {
     let mut atoms: Vec<AtomSpec> = specs.iter().map(|atom| atom.with_density(density)).collect();

@@ -27,6 +27,20 @@ pub(crate) struct AreaMoments {
     pub(crate) polar: f64,
 }
 
+/// Whether the moments take more than so many looks at pairs of discs.
+pub(crate) fn takes_more(atoms: &[AtomSpec], most: usize) -> bool {
+    let mut places: Vec<f64> = atoms.iter().map(|atom| atom.offset.x).collect();
+    places.sort_by(f64::total_cmp);
+    let widest = atoms.iter().map(|atom| atom.radius).fold(0.0, f64::max);
+    let mut looks = 0;
+    atoms.iter().any(|atom| {
+        let reach = atom.radius + widest;
+        let begin = places.partition_point(|other| *other < atom.offset.x - reach);
+        looks += places.partition_point(|other| *other <= atom.offset.x + reach).saturating_sub(begin);
+        looks > most
+    })
+}
+
 /// The moments of the area that the atoms cover.
 pub(crate) fn area_moments(atoms: &[AtomSpec]) -> AreaMoments {
     let low = atoms.iter().fold(DVec2::INFINITY, |low, atom| low.min(atom.offset));

@@ -223,7 +223,8 @@ impl Reader<'_> {
         }
         self.depth += 1;
         if self.depth > DEEPEST {
-            return Err(wrong(start..self.text.len(), "powers are nested too deeply", None));
+            let message = format!("powers are nested too deeply: more than {DEEPEST}");
+            return Err(wrong(start..self.text.len(), message, None));
         }
         let exponent = self.signed()?;
         self.depth -= 1;

@@ -300,8 +300,11 @@ impl Expander {
             return Err(Box::new(error.with_help("repeat less often")));
         }
         if self.work > MOST_WORK {
-            let error = self.wrong(context, span, "the scene becomes too large");
-            return Err(Box::new(error.with_help("repeat less often, or make smaller things")));
+            let message = format!("here the scene has copied more than {} MiB of text", MOST_WORK >> 20);
+            let error = self.wrong(context, span, message);
+            return Err(Box::new(
+                error.with_help("repeat less often, make smaller things, or shorten `params` and tables"),
+            ));
         }
         Ok(())
     }

@@ -54,8 +54,7 @@ pub(super) fn check(text: &str) -> Result<(), (String, String)> {
     let length = whole.written_out(&lengths);
     if length > MOST_TEXT {
         let most = MOST_TEXT >> 20;
-        let message =
-            format!("has more than {most} MiB of text with its entities written out: there can be {most} MiB");
+        let message = format!("has more than {most} MiB of text with its entities written out");
         return Err((message, "save it as `plain SVG`, without entities, or make the drawing simpler".to_owned()));
     }
     Ok(())

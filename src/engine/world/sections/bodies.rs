@@ -158,7 +158,7 @@ impl BodyEntry {
         }
         material::require(self.material.as_deref(), outline, report);
         let specs = self.specs();
-        if report.is_clean() {
+        if report.is_clean() && (self.shape.is_some() || mass_properties::check_union(&specs, self.rule(), report)) {
             self.mass_properties(1.0).check(report);
         }
         if self.inertia == Some(InertiaRule::Points) && specs.len() == 1 && !self.fixed && self.kinematic.is_none() {
@@ -250,6 +250,10 @@ impl BodyEntry {
     /// The places that `fill` must keep clear of.
     fn occupy(&self, outline: &mut Outline) {
         let specs = self.specs();
+        if self.shape.is_none() && !mass_properties::is_affordable(&specs, self.rule()) {
+            // The check refuses it.
+            return;
+        }
         if mass_properties::center_depends_on_density(&specs) && self.datum == Datum::CenterOfMass {
             // The material is not known yet; this circle holds the body wherever its centre of mass is.
             let center = self.at.unwrap_or_default().si();
