@@ -8,6 +8,8 @@
 //!
 //! A given mass replaces the sum, and all results of the sum are scaled to it.
 
+use std::cell::RefCell;
+
 use glam::DVec2;
 use schemars::{JsonSchema, Schema, SchemaGenerator, json_schema};
 use serde::de::{self, Deserializer};
@@ -15,6 +17,7 @@ use serde::{Deserialize, Serialize};
 
 use jostle_shapes::{AreaMoments, Hull, mark_inner};
 
+use super::lately::Lately;
 use super::outline::OutlinePart;
 use super::{AtomSpec, union};
 use crate::scene::Diagnostics;
@@ -190,7 +193,7 @@ pub fn of_parts(
         let to = if part.collides || none_touches { &mut hulls } else { &mut intangible };
         to.extend(Hull::all_moved(&part.hulls, -center));
     }
-    mark_inner(&mut hulls);
+    hulls = OUTLINES.with_borrow_mut(|outlines| outlines.get(&hulls, || marked(hulls.clone())));
     // A disc that touches is an atom.
     let is_disc = |hull: &Hull| hull.corners().len() == 1;
     for disc in hulls.iter().filter(|hull| is_disc(hull)) {
@@ -209,6 +212,17 @@ pub fn of_parts(
     MassProperties { mass: total, center, inertia, atoms, hulls, intangible }
 }
 
+thread_local! {
+    static AREAS: RefCell<Lately<AreaMoments>> = const { RefCell::new(Lately::new()) };
+    static OUTLINES: RefCell<Lately<Vec<Hull>>> = const { RefCell::new(Lately::new()) };
+}
+
+/// The hulls of a body, with their inner sides marked.
+fn marked(mut hulls: Vec<Hull>) -> Vec<Hull> {
+    mark_inner(&mut hulls);
+    hulls
+}
+
 /// A part of a body with its mass.
 #[derive(Clone, Copy, Debug, Default)]
 struct Heavy {
@@ -221,7 +235,7 @@ struct Heavy {
 impl Heavy {
     /// The union of some hulls, uniformly heavy.
     fn of(hulls: &[Hull], mass: Option<f64>, density: f64) -> Self {
-        let area = AreaMoments::union_of(hulls);
+        let area = AREAS.with_borrow_mut(|areas| areas.get(hulls, || AreaMoments::union_of(hulls)));
         let mass = mass.unwrap_or(density * area.area);
         Self { mass, center: area.centre, inertia: mass / area.area * area.second_moment }
     }

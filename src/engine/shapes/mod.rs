@@ -3,6 +3,7 @@
 //! A shape is one file with its fields, its check and `specs`, and one line in [`AtomShape`].
 
 pub mod disc;
+mod lately;
 pub mod list;
 pub mod mass_properties;
 pub mod outline;
