@@ -86,8 +86,19 @@ impl Ran {
 /// Rounding of places of some metres over thousands of steps, in m.
 const ROUNDING: f64 = 1e-12;
 
-/// All runs of a scene agree whose places are trusted. At least `trusted` of them are.
+/// All runs of a scene agree whose places are trusted, to three times what they state. At least `trusted` of them are.
 pub fn demand_agreement(name: &str, clocks: &[&str], trusted: usize, scene: impl Fn(&str) -> String) {
+    demand_agreement_within(3.0, name, clocks, trusted, scene);
+}
+
+/// The same, to so many `times` what they state.
+pub fn demand_agreement_within(
+    times: f64,
+    name: &str,
+    clocks: &[&str],
+    trusted: usize,
+    scene: impl Fn(&str) -> String,
+) {
     let ran =
         |clock: &str| (run(&scene(clock), 1).unwrap_or_else(|why| panic!("{name}{clock}: {why}")), clock.to_owned());
     let runs: Vec<_> = clocks.iter().map(|clock| ran(clock)).filter(|(ran, _)| ran.trusts_places()).collect();
@@ -95,7 +106,7 @@ pub fn demand_agreement(name: &str, clocks: &[&str], trusted: usize, scene: impl
     for (index, (one, clock)) in runs.iter().enumerate() {
         for (other, beside) in &runs[..index] {
             let stated = [one, other].into_iter().filter_map(|ran| ran.stated()).map(|stated| stated.0).sum::<f64>();
-            let (apart, most) = (one.apart(other), 3.0 * stated + ROUNDING);
+            let (apart, most) = (one.apart(other), times * stated + ROUNDING);
             assert!(apart <= most, "{name}:{clock} and{beside} are {apart:e} m apart and state {stated:e}");
         }
     }

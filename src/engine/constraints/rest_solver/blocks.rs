@@ -139,7 +139,8 @@ impl Blocks {
                 // The force may go from one limit to the other, and neighbours may do as much again. A faster contact slides on.
                 let (of_a, of_b) = row.mobilities(&sides);
                 let reach = 4.0 * (grips.0[kind] * of_a + grips.1[kind] * of_b) * dt;
-                (contact.engaged || spring.force == 0.0) && spring.limit > 0.0 && row.velocity(&sides).abs() <= reach
+                let may = contact.engaged || spring.phase.is_rigid() || spring.force == 0.0;
+                may && spring.limit > 0.0 && row.velocity(&sides).abs() <= reach
             };
             normals[block].put(lane, contact, &rows, &sides, over, dt);
             let tangent_gain = 1.0 / (rows.tangent.mobility * dt);

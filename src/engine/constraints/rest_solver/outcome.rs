@@ -7,9 +7,6 @@ use super::blocks::{Blocks, Rows, Springs};
 use super::contact_direction::{Mover, Row, Sides};
 use super::rest_contact::{ContactOutcome, CoulombSpring, FrictionOutcome, RestContact, SpringPhase};
 
-/// A hold that brakes a slide has the greatest force of a slip. It may miss this share of it, by rounding of the normal force.
-const BRAKES: f64 = 1e-9;
-
 /// A contact with the forces found for it.
 pub(super) struct Found<'a> {
     pub blocks: &'a Blocks,
@@ -48,20 +45,35 @@ impl Found<'_> {
         let none = Springs::default();
         let rolling = self.blocks.rolling.get(block).unwrap_or(&none);
         if at_limit && !self.stands(&rows.normal, &sides[1]) {
-            let turns = |springs: &Springs, drawn: &CoulombSpring| {
-                let braked = drawn.phase == SpringPhase::Holds
-                    && drawn.force.abs() >= (1.0 - BRAKES) * drawn.slips * contact.normal_force;
-                match springs.is_engaged(lane) && !springs.is_free(lane) {
-                    true => FrictionOutcome::TurnsRound { force: springs.force[lane], braked },
-                    false => FrictionOutcome::Follows,
-                }
-            };
-            let (tangential, rolling) = (turns(tangential, &contact.tangential), turns(rolling, &contact.rolling));
+            let tangential = self.beside_motion(&rows.tangent, &sides[1], (tangential, lane), &contact.tangential);
+            let rolling = self.beside_motion(&rows.turn, &sides[1], (rolling, lane), &contact.rolling);
             return ContactOutcome::Moves { approaches: normal > contact.band.0, tangential, rolling };
         }
         let (tangential, slips) = self.friction(&rows.tangent, &sides, (tangential, lane), &contact.tangential);
         let (rolling, rolls) = self.friction(&rows.turn, &sides, (rolling, lane), &contact.rolling);
         ContactOutcome::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
+    }
+
+    /// Whether the normal force has one value at rest. It follows each load then, and springs are drawn along with it.
+    fn is_single_valued(&self) -> bool {
+        self.contact.band.0 == self.contact.band.1
+    }
+
+    /// Friction along a row of a contact that moves along its normal. Without its spring it goes on as it would at rest.
+    fn beside_motion(
+        &self,
+        row: &Row,
+        end: &Sides,
+        (springs, lane): (&Springs, usize),
+        drawn: &CoulombSpring,
+    ) -> FrictionOutcome {
+        if !drawn.phase.is_rigid() || self.is_single_valued() {
+            return FrictionOutcome::Follows;
+        }
+        if springs.is_engaged(lane) && (springs.is_free(lane) || self.stands(row, end)) {
+            return FrictionOutcome::Holds(springs.force[lane]);
+        }
+        FrictionOutcome::Slides(-row.velocity(end))
     }
 
     /// Whether a row has no velocity beyond rounding.
@@ -89,23 +101,22 @@ impl Found<'_> {
         let (before, velocity) = (row.velocity(begin), row.velocity(end));
         let against = engaged && force * velocity < 0.0;
         let stood = before.abs() <= self.noise() * row.mobility * self.dt;
-        // At rest along the normal friction is dry. A spring that slipped would swing back if the sliding turns round.
-        let turns = self.contact.engaged && drawn.phase == SpringPhase::Slips && drawn.force * velocity > 0.0;
+        // At rest along the normal friction is dry.
+        let dry = self.contact.engaged && drawn.phase == SpringPhase::Slips && !self.is_single_valued();
         // A force along the motion has not converged.
         let yields = drawn.phase == SpringPhase::Holds && (against || !engaged);
-        let friction = if drawn.phase == SpringPhase::Slides || against && stood {
+        let slides = drawn.phase == SpringPhase::Slides && !self.is_single_valued();
+        let friction = if slides || against && stood {
             FrictionOutcome::Slides(-velocity)
         } else if against && velocity.abs() < before.abs() {
             // It brakes without stopping. So friction that could hold a body catches a sudden motion within some ticks.
             FrictionOutcome::Holds(force)
-        } else if yields || turns {
+        } else if yields || dry {
             FrictionOutcome::Slides(-velocity)
-        } else if self.contact.engaged {
-            FrictionOutcome::Stays
         } else if self.contact.parts {
             FrictionOutcome::Lands
         } else {
-            FrictionOutcome::Turns
+            FrictionOutcome::Follows
         };
         (friction, drawn.limit > 0.0)
     }

@@ -10,10 +10,17 @@ pub enum SpringPhase {
     Follows,
     /// It follows the motion at its limit.
     Slips,
-    /// The force is the one that held the contact. The spring is not drawn to it.
+    /// The force is the one that held the contact, without the spring.
     Holds,
-    /// The contact slides under a force to which the spring is not drawn.
+    /// The contact slides under a force without the spring.
     Slides,
+}
+
+impl SpringPhase {
+    /// Whether friction acts without its spring.
+    pub fn is_rigid(self) -> bool {
+        matches!(self, Self::Holds | Self::Slides)
+    }
 }
 
 /// A spring with a Coulomb limit: a force in N, or a torque in N m with lengths for coefficients.
@@ -64,29 +71,15 @@ pub struct RestContact {
     pub rolling: CoulombSpring,
 }
 
-/// Friction in the tick to come, in a contact that rests along its normal. Forces are in N, torques in N m.
+/// Friction in the tick to come. Forces are in N, torques in N m.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum FrictionOutcome {
     /// It holds with this force, or brakes with its greatest force.
     Holds(f64),
-    /// It was at rest and could not bear the load, or slid already without its spring, or was turned round. It slides against the
-    /// motion with the dynamic coefficient, and its force has the sign of this number.
+    /// It slides against the motion with the dynamic coefficient and without its spring. Its force has the sign of this number.
     Slides(f64),
-    /// The contact begins to rest, perhaps for the one tick in which a collision turns. Its spring follows the motion. A spring that
-    /// gives way slides on until the force of the next tick is known.
-    Turns,
     /// The contact begins to rest after it parted. The normal force grows, and a spring that slipped is below its limit then.
     Lands,
-    /// The contact rests on, and its spring follows the motion. A spring that slips has the limit that follows from the normal force.
-    Stays,
-    /// It slides with this force, and its contact moves. A hold ends, and its spring follows the motion. A spring that was not drawn to
-    /// that hold, or that braked, begins on the side of this force.
-    TurnsRound {
-        /// In newtons.
-        force: f64,
-        /// Whether the hold braked a slide with its greatest force.
-        braked: bool,
-    },
     /// Its spring follows the motion.
     Follows,
 }

@@ -41,21 +41,20 @@ impl View<'_> {
         parts || slides || rolls
     }
 
-    /// Replaces a friction that is held between sides that slide or turn by its spring. Without one, it slides.
+    /// Lets a friction slide that is held between sides that slide or turn.
     fn let_slide(&mut self, index: usize) {
         let (geometry, rounding) = (self.look(index), self.rounding_of_velocity(index));
         let turns = turns(&geometry, rounding);
         let (mut contact, law, roller) = self.whole(index, &geometry);
         let sliding = geometry.sliding(law.shares());
         if contact.tangential.grip == Grip::Hold && law.tangential().acts() && sliding.abs() > rounding {
-            if law.exact {
-                contact.give(law, sliding > 0.0);
-            } else {
-                contact.tangential.come_loose(&law.tangential(), true, sliding);
-            }
+            contact.give(law, sliding > 0.0);
         }
+        let normal_force = contact.normal_force;
+        drop(contact);
         if let Some((slider, law)) = roller.filter(|(slider, _)| turns && slider.grip == Grip::Hold) {
-            slider.come_loose(&law, true, geometry.turning());
+            slider.give(geometry.turning() > 0.0, true);
+            slider.slide(&law, normal_force);
         }
     }
 }

@@ -66,6 +66,9 @@ pub struct PenaltyContacts {
     /// The tangential and the rolling spring of each contact at the beginning of an event. They are those that hold or
     /// stick, and those that slip beside a normal force that is not held.
     pub(super) before: Vec<[Option<Slider>; 2]>,
+    /// Contacts of a state that did not follow from the one before, until their modes have settled.
+    #[serde(skip)]
+    pub(super) fresh: Vec<u32>,
     /// Contacts whose friction stopped sliding at the last event, and is held for a first try.
     pub(super) stopped: Vec<u32>,
     /// Contacts whose held force has left its bounds at the last event, until the next step.
@@ -104,6 +107,7 @@ impl Default for PenaltyContacts {
             held: Held::default(),
             told: Told::default(),
             held_before: None,
+            fresh: Vec::new(),
             before: Vec::new(),
             stopped: Vec::new(),
             released: Vec::new(),

@@ -70,8 +70,8 @@ pub(super) fn take_over<N: NormalForce>(
             elongation,
             held: if rests || slips { force } else { 0.0_f64.copysign(force) },
             grip: match (slips, rests) {
-                (true, false) if mode == EvaluationMode::Following => Grip::Slip,
-                (true, _) => Grip::Slide,
+                (true, false) => Grip::Slip,
+                (true, true) => Grip::Slide,
                 (false, true) => Grip::Hold,
                 (false, false) => Grip::Stick,
             },

@@ -37,7 +37,8 @@ impl Contact {
         Self { law, ..Self::default() }
     }
 
-    /// Chooses the mode for a pair that is not to be held; `tangential`: what friction does. Returns the mode before, if that changed anything.
+    /// Chooses the mode for a pair that is not to be held; `tangential`: what friction does. Returns the contact before, if that changed
+    /// anything.
     #[inline]
     pub fn choose_mode<N: NormalForce>(
         &mut self,
@@ -47,12 +48,14 @@ impl Contact {
         losses: &mut Losses,
     ) -> Option<Self> {
         let chosen = N::chosen(self.mode, approach.parting);
-        if chosen == self.mode {
+        if chosen == self.mode && !self.tangential.grip.is_rigid() {
             return None;
         }
         let before = *self;
-        self.mode = chosen;
-        self.normal_force = N::force(law, chosen.sign(), self.overlap, approach);
+        if chosen != self.mode {
+            self.mode = chosen;
+            self.normal_force = N::force(law, chosen.sign(), self.overlap, approach);
+        }
         self.take_on(law, tangential, losses);
         Some(before)
     }

@@ -35,6 +35,12 @@ impl Phases {
         self.loading | self.unloading
     }
 
+    /// Those that are held along their normal or their tangent.
+    #[inline(always)]
+    fn held(self) -> u8 {
+        self.loading & self.unloading | self.touching() & self.slides
+    }
+
     pub fn mode(self, lane: usize) -> Mode {
         match ((self.loading >> lane) & 1, (self.unloading >> lane) & 1) {
             (0, 0) => Mode::Open,
@@ -253,14 +259,14 @@ impl ContactList {
         there(self.len - BLOCK * block) & !self.asleep_in(block)
     }
 
-    /// Places of those that are held along their normal and are not asleep, in order.
+    /// Places of those that are held along their normal or their tangent and are not asleep, in order.
     pub(super) fn awake_held(&self) -> impl Iterator<Item = usize> + '_ {
-        let held = |block: usize| self.phases[block].loading & self.phases[block].unloading;
+        let held = |block: usize| self.phases[block].held();
         let blocks = self.awake_blocks();
         let together = move |first: usize| first..blocks.min(first + TOGETHER);
         // Mostly there is none. Many consecutive blocks are checked at once.
         let some_are = move |first: &usize| {
-            let held = |bits: u8, phases: &Phases| bits | phases.loading & phases.unloading;
+            let held = |bits: u8, phases: &Phases| bits | phases.held();
             self.few().is_some() || self.phases[together(*first)].iter().fold(0, held) != 0
         };
         let numbers = (0..blocks).step_by(TOGETHER).filter(some_are).flat_map(together);

@@ -76,12 +76,12 @@ pub(super) fn take_rows(
             (HeldPart::Normal, roller) => {
                 contact.normal_force = force;
                 if let Some((slider, rolling_law)) = roller
-                    && slider.grip == Grip::Slide
+                    && slider.grip.gives()
                 {
-                    slider.slide(&rolling_law, force, true);
+                    slider.slide(&rolling_law, force);
                     rolling_stages::push(slider, slider.sliding_force(&rolling_law, force), geometry, sink);
                 }
-                let sliding = contact.tangential.grip == Grip::Slide;
+                let sliding = contact.tangential.grip.gives();
                 if sliding {
                     contact.slide(law, force);
                 }
@@ -114,24 +114,21 @@ fn stage<N: NormalForce>(
     if !normal_held {
         contact.normal_force = N::smooth_force(law, contact.mode, geometry.overlap, approach);
     }
-    if contact.tangential.grip == Grip::Slide && !normal_held {
+    let slides = contact.tangential.grip.gives();
+    if slides && !normal_held {
         contact.slide(law, contact.normal_force);
     }
     let acts = law.tangential().acts();
     let tangent_held = acts && contact.tangential.grip == Grip::Hold;
-    let tangent_waits = !acts || tangent_held || (normal_held && contact.tangential.grip == Grip::Slide);
+    let tangent_waits = !acts || tangent_held || (normal_held && slides);
     let normal = (!normal_held).then_some(contact.normal_force);
     let tangential = match contact.tangential.grip {
         _ if tangent_waits => 0.0,
-        Grip::Slide => contact.tangential.sliding_force(&law.tangential(), contact.normal_force),
+        Grip::Slip | Grip::Slide => contact.tangential.sliding_force(&law.tangential(), contact.normal_force),
         _ => contact.tangential_force(law),
     };
     if normal_held {
-        let slope = if contact.tangential.grip == Grip::Slide {
-            law.friction_dynamic.copysign(contact.tangential.held)
-        } else {
-            0.0
-        };
+        let slope = if slides { law.friction_dynamic.copysign(contact.tangential.held) } else { 0.0 };
         let twist = roller.as_ref().map_or(0.0, |roller| rolling_stages::slope(roller, contact));
         held.add_normal(rows, geometry, law, (slope, twist), sink.bodies);
     }
@@ -163,7 +160,7 @@ fn book(
     if let Some(normal) = normal {
         sink.rates.inelasticity -= geometry.parting() * (normal - law.stiffness * geometry.overlap);
     }
-    if tangential != 0.0 && contact.tangential.grip == Grip::Slide {
+    if tangential != 0.0 && contact.tangential.grip.gives() {
         sink.rates.friction += tangential * geometry.sliding(law.shares());
     }
 }

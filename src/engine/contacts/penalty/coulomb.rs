@@ -7,7 +7,8 @@
 //! spring when the contact opens, and the work of slipping, are lost to friction.
 //!
 //! At rest the law is set-valued: every force up to `mu N` keeps the contact at rest. The balance of forces determines
-//! it ([`crate::constraints::rest_solver`]).
+//! it ([`crate::constraints::rest_solver`]). From then on friction is rigid until the contact opens. No motion stretches its spring any
+//! more, which would have to give way first whenever loads change.
 
 use super::indicators::SliderMotion;
 use super::normal::Mode;
@@ -31,13 +32,24 @@ pub enum Grip {
     /// The spring holds.
     #[default]
     Stick,
-    /// The spring has given way and pulls with `mu N`.
+    /// The spring has given way and pulls with `mu N`. In stages of a step the direction is that of [`Slider::held`].
     Slip,
     /// At rest: the force is whatever keeps it so, up to the static limit.
     Hold,
-    /// It slips against the force in [`Slider::held`]. Contacts in stages of a step use it. So do contacts that rest
-    /// along the normal and yielded without a stretched spring.
+    /// It slides against the force in [`Slider::held`], without its spring. It has rested before, or rests along the normal.
     Slide,
+}
+
+impl Grip {
+    /// Whether it slips or slides.
+    pub(super) fn gives(self) -> bool {
+        matches!(self, Self::Slip | Self::Slide)
+    }
+
+    /// Whether it acts without its spring.
+    pub(super) fn is_rigid(self) -> bool {
+        matches!(self, Self::Hold | Self::Slide)
+    }
 }
 
 /// Coefficients of a spring with a Coulomb limit. For rolling, forces are torques, displacements angles and the
@@ -86,66 +98,42 @@ impl Slider {
         }
     }
 
-    /// The force in newtons of a slide in a stage of a step. Behind the moment at which its contact is let go, both forces pull.
+    /// The force in newtons of a slip or slide in a stage of a step. Behind the moment at which its contact is let go, both forces pull.
     pub(super) fn sliding_force(&self, law: &SliderLaw, normal_force: f64) -> f64 {
         law.friction_dynamic.copysign(self.held) * normal_force
     }
 
-    /// Slides against the force of a normal force. Below one that is held, the way draws the spring.
-    pub(super) fn slide(&mut self, law: &SliderLaw, normal_force: f64, is_held: bool) {
+    /// Slips or slides against the force of a normal force.
+    pub(super) fn slide(&mut self, law: &SliderLaw, normal_force: f64) {
         self.held = (law.friction_dynamic * normal_force).abs().copysign(self.held);
-        let drawn = self.held / law.stiffness;
-        self.elongation = if is_held { self.elongation.max(-drawn.abs()).min(drawn.abs()) } else { drawn };
-    }
-
-    /// Whether its elongation is state in stages of a step. It is while it sticks, and while a slide draws it.
-    pub(super) fn is_state(&self, mode: Mode) -> bool {
-        match self.grip {
-            Grip::Stick => mode != Mode::Open,
-            Grip::Slide => mode == Mode::Hold,
-            Grip::Slip | Grip::Hold => false,
+        if self.grip == Grip::Slip {
+            self.elongation = self.held / law.stiffness;
         }
     }
 
-    /// The unit of errors of its elongation, beside those of ways: see [`crate::tick::Events::measures`]. A slide has its force without
-    /// its spring, so no error of the elongation changes the motion.
-    pub(super) fn measure(&self) -> f64 {
-        if self.grip == Grip::Slide { f64::INFINITY } else { 0.0 }
+    /// Gives way with a force of this sign. A spring slips if it is not `rigid`.
+    pub(super) fn give(&mut self, positive: bool, rigid: bool) {
+        self.grip = if rigid { Grip::Slide } else { Grip::Slip };
+        self.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
     }
 
-    /// Follows its contact, whose sides move with `velocity`. A slide that has not drawn its spring yet turns it to the side of its
-    /// force. It sticks then.
-    pub(super) fn come_loose(&mut self, law: &SliderLaw, is_loose: bool, velocity: f64) {
+    /// Stops. A spring that slipped sticks.
+    pub(super) fn stop(&mut self) {
+        self.grip = if self.grip == Grip::Slip { Grip::Stick } else { Grip::Hold };
+    }
+
+    /// Whether its elongation is state in stages of a step.
+    pub(super) fn is_state(&self, mode: Mode) -> bool {
+        self.grip == Grip::Stick && mode != Mode::Open
+    }
+
+    /// Follows the mode of its contact, whose sides move with `velocity`. At rest along the normal a slip goes on without its spring.
+    pub(super) fn adapt(&mut self, mode: Mode, velocity: f64) {
         match self.grip {
-            Grip::Hold if is_loose => {
-                self.let_go(law);
-            }
-            Grip::Slide if is_loose && self.slides_without_spring(law) => {
-                self.elongation = self.elongation.abs().copysign(self.held);
-                if self.slides_without_spring(law) {
-                    self.grip = Grip::Stick;
-                }
-            }
+            Grip::Slip if mode == Mode::Hold => self.grip = Grip::Slide,
+            Grip::Stick => self.held = 0.0_f64.copysign(velocity),
             _ => {}
         }
-        if self.grip == Grip::Stick {
-            self.held = 0.0_f64.copysign(velocity);
-        }
-    }
-
-    /// Whether it slides with a force that its spring is not drawn to.
-    pub(super) fn slides_without_spring(&self, law: &SliderLaw) -> bool {
-        self.grip == Grip::Slide && !self.is_drawn(law)
-    }
-
-    /// Whether it holds with a force that its spring is not drawn to.
-    fn holds_without_spring(&self, law: &SliderLaw) -> bool {
-        self.grip == Grip::Hold && !self.is_drawn(law)
-    }
-
-    /// Whether its spring is drawn to the force with which it holds or slides.
-    fn is_drawn(&self, law: &SliderLaw) -> bool {
-        (law.stiffness * self.elongation - self.held).abs() <= ROUNDING * self.held.abs()
     }
 
     /// The spring as the search for rest sees it.
@@ -154,9 +142,9 @@ impl Slider {
         let gives = if self.grip == Grip::Slip { slips } else { limit };
         let phase = match self.grip {
             Grip::Hold => SpringPhase::Holds,
-            Grip::Slide if self.slides_without_spring(law) => SpringPhase::Slides,
+            Grip::Slide => SpringPhase::Slides,
             Grip::Slip => SpringPhase::Slips,
-            Grip::Stick | Grip::Slide => SpringPhase::Follows,
+            Grip::Stick => SpringPhase::Follows,
         };
         CoulombSpring { limit, gives, slips, force: self.force(law), phase }
     }
@@ -171,10 +159,13 @@ impl Slider {
     ///
     /// `None`: no time has passed, only the normal force may be another one. A contact that slips begins to stick by
     /// moving back, never by being looked at.
+    ///
+    /// `rests`: its contact is held along the normal in this tick. A slip keeps its force then. In the tick of a turn, the normal
+    /// force depends on the time of the turn. A spring that stuck by it would bear more than one that slips.
     #[inline(always)]
-    pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64) -> f64 {
-        if matches!(self.grip, Grip::Hold | Grip::Slide) {
-            return self.held * displacement.unwrap_or(0.0) - self.draw(law, displacement);
+    pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64, rests: bool) -> f64 {
+        if self.grip.is_rigid() || rests && self.grip == Grip::Slip {
+            return self.force(law) * displacement.unwrap_or(0.0);
         }
         let before = self.elongation;
         let trial = before + displacement.unwrap_or(0.0);
@@ -189,23 +180,13 @@ impl Slider {
         0.5 * law.stiffness * (before + self.elongation) * (trial - self.elongation)
     }
 
-    /// A slide draws its spring on the way, up to the force with which it slides. Returns the energy in J that the spring takes
-    /// up. It comes from the work of that force, which is never less.
-    fn draw(&mut self, law: &SliderLaw, displacement: Option<f64>) -> f64 {
-        let Some(displacement) = displacement.filter(|_| self.slides_without_spring(law)) else { return 0.0 };
-        let before = self.energy(law);
-        let (trial, most) = (self.elongation + displacement, self.held.abs() / law.stiffness);
-        self.elongation = if trial.abs() > most { most.copysign(trial) } else { trial };
-        self.energy(law) - before
-    }
-
     /// Makes a spring stick that slipped in the state `before`, if its limit has jumped beyond that. Only the motion of
     /// its ends stretches it farther. They slide with the relative velocity `velocity`. Returns whether it did.
     pub(super) fn settle_jump(&mut self, law: &SliderLaw, before: Option<Self>, velocity: f64) -> bool {
-        let Some(drawn) = before.filter(|before| before.grip == Grip::Slide).map(|before| before.elongation) else {
+        let Some(drawn) = before.filter(|before| before.grip == Grip::Slip).map(|before| before.elongation) else {
             return false;
         };
-        let short = self.grip == Grip::Slide && self.held.abs() > law.stiffness * drawn.abs() * (1.0 + ROUNDING);
+        let short = self.grip == Grip::Slip && self.held.abs() > law.stiffness * drawn.abs() * (1.0 + ROUNDING);
         if short {
             *self = Self { grip: Grip::Stick, elongation: drawn, held: 0.0_f64.copysign(velocity) };
         }
@@ -217,10 +198,9 @@ impl Slider {
         self.grip == Grip::Slide && before.is_some_and(|before| before.grip == Grip::Hold)
     }
 
-    /// Takes back a slide that was tried at one moment with the state `before`, in which it held or stuck. The slide drew its
-    /// spring, which takes time.
+    /// Takes back a slip or slide that was tried at one moment with another grip in the state `before`.
     pub(super) fn undo_slide(&mut self, before: Option<Self>) {
-        if let Some(before) = before.filter(|before| self.grip == Grip::Slide && before.grip != Grip::Slide) {
+        if let Some(before) = before.filter(|before| self.grip.gives() && before.grip != self.grip) {
             *self = before;
         }
     }
@@ -274,8 +254,8 @@ impl Slider {
         }
     }
 
-    /// Lets a spring slip that is beyond its cone, or swing back if it stuck `before`. Says whether it was.
-    pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base, before: Option<Self>) -> bool {
+    /// Lets a spring slip that is beyond its cone, or swing back if it stuck `before`. `rigid`: it slides. Says whether it was.
+    pub(super) fn settle_force(&mut self, law: &SliderLaw, base: Base, before: Option<Self>, rigid: bool) -> bool {
         // At the beginning or end of a contact, rounding may leave a normal force below zero.
         let (force, limit) = (self.force(law), law.friction_static * base.force.max(0.0));
         let gives = match self.grip {
@@ -284,12 +264,14 @@ impl Slider {
             Grip::Slip | Grip::Slide => false,
         };
         if gives && !self.swing_back(before) {
-            (self.grip, self.held) = (Grip::Slide, force);
+            let slides = rigid || self.grip == Grip::Hold;
+            (self.grip, self.held) = (if slides { Grip::Slide } else { Grip::Slip }, force);
         }
         gives
     }
 
-    /// Lets a spring stick that would slip against its force, and one slip that would stick without any normal force. Its ends
+    /// Lets a spring stick that would slip against its force, and one slip that would stick without any normal force. Turns a slide
+    /// round that took over the force of a spring which pushed along the motion. Its ends
     /// move past each other with `velocity`, a difference of velocities as great as `speed`. Says whether there was either. Without
     /// any speed it keeps the direction that forces have chosen.
     pub(super) fn settle_motion(&mut self, law: &SliderLaw, base: Base, (velocity, speed): (f64, f64)) -> bool {
@@ -297,16 +279,19 @@ impl Slider {
         let rounding = ROUNDING * (speed + follows.abs());
         match self.grip {
             // Friction of a slack contact has no force in either grip. The sign of a velocity of rounding would change it without end.
-            Grip::Slide if base.is_slack => return false,
-            Grip::Stick if base.is_slack && self.force(law) == 0.0 => {
-                (self.grip, self.held) = (Grip::Slide, 0.0_f64.copysign(velocity));
+            Grip::Slip if base.is_slack => return false,
+            Grip::Slide if velocity * self.held.signum() < -ROUNDING * speed => {
+                self.held = self.held.abs().copysign(velocity);
             }
-            Grip::Slide if speed > 0.0 && (velocity - follows) * self.held.signum() < -rounding => {
+            Grip::Stick if base.is_slack && self.force(law) == 0.0 => {
+                (self.grip, self.held) = (Grip::Slip, 0.0_f64.copysign(velocity));
+            }
+            Grip::Slip if speed > 0.0 && (velocity - follows) * self.held.signum() < -rounding => {
                 // A holding spring remembers its direction.
                 (self.grip, self.held) = (Grip::Stick, 0.0_f64.copysign(velocity));
             }
             Grip::Stick if base.force == 0.0 && velocity.abs() > rounding && !base.bears(law, velocity) => {
-                (self.grip, self.held) = (Grip::Slide, 0.0_f64.copysign(velocity));
+                (self.grip, self.held) = (Grip::Slip, 0.0_f64.copysign(velocity));
             }
             _ => return false,
         }
@@ -321,50 +306,27 @@ impl Slider {
                 (self.grip, self.held) = (Grip::Hold, force);
                 0.0
             }
-            // Without its spring, which would have to be drawn by energy that nothing gives.
             FrictionOutcome::Slides(against) => {
-                (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
-                0.0
-            }
-            // The normal force of that tick depends on the time of the contact's turn. If the coefficients differ, a
-            // spring that stuck by it would bear more than a slipping one.
-            FrictionOutcome::Turns if law.friction_static > law.friction_dynamic => {
-                let lost = self.let_go(law) + self.follow(law, None, normal_force);
-                if self.grip == Grip::Slip {
-                    (self.grip, self.held) = (Grip::Slide, law.stiffness * self.elongation);
+                let lost = if self.grip == Grip::Slip { self.energy(law) } else { 0.0 };
+                if lost > 0.0 {
+                    self.elongation = 0.0;
                 }
+                (self.grip, self.held) = (Grip::Slide, (law.friction_dynamic * normal_force).copysign(against));
                 lost
             }
             FrictionOutcome::Lands if self.grip == Grip::Slip => {
                 self.grip = Grip::Stick;
-                self.follow(law, None, normal_force)
+                self.follow(law, None, normal_force, false)
             }
-            FrictionOutcome::Stays => {
-                let before = self.energy(law);
-                self.let_go(law);
-                if self.grip == Grip::Slip {
-                    self.elongation = law.slipped(normal_force).copysign(self.elongation);
-                } else {
-                    self.follow(law, None, normal_force);
-                }
-                before - self.energy(law)
+            FrictionOutcome::Follows | FrictionOutcome::Lands => {
+                self.let_go(law) + self.follow(law, None, normal_force, false)
             }
-            FrictionOutcome::TurnsRound { force, braked }
-                if (braked || self.holds_without_spring(law)) && force * self.elongation < 0.0 =>
-            {
-                self.held = force;
-                self.let_go(law) + self.follow(law, None, normal_force)
-            }
-            FrictionOutcome::TurnsRound { .. }
-            | FrictionOutcome::Follows
-            | FrictionOutcome::Lands
-            | FrictionOutcome::Turns => self.let_go(law) + self.follow(law, None, normal_force),
         }
     }
 
     /// The spring replaces a hold or a slide, as far as its energy allows. Returns the energy lost in J.
     pub fn let_go(&mut self, law: &SliderLaw) -> f64 {
-        if !matches!(self.grip, Grip::Hold | Grip::Slide) {
+        if !self.grip.is_rigid() {
             return 0.0;
         }
         let before = self.energy(law);
@@ -384,9 +346,9 @@ mod tests {
     #[test]
     fn a_sticking_spring_holds_up_to_the_static_limit_and_loses_nothing() {
         let mut slider = Slider::default();
-        assert_eq!(slider.follow(&LAW, Some(0.59 * 10.0 / 80.0), 10.0), 0.0);
+        assert_eq!(slider.follow(&LAW, Some(0.59 * 10.0 / 80.0), 10.0, false), 0.0);
         assert_eq!(slider.grip, Grip::Stick);
-        slider.follow(&LAW, Some(0.02 * 10.0 / 80.0), 10.0);
+        slider.follow(&LAW, Some(0.02 * 10.0 / 80.0), 10.0, false);
         assert_eq!(slider.grip, Grip::Slip);
         assert_eq!(slider.elongation, 0.4 * 10.0 / 80.0);
     }
@@ -405,7 +367,7 @@ mod tests {
     fn steady_slip_loses_force_times_way() {
         let limit = 0.4 * 10.0 / 80.0;
         let mut slider = Slider { elongation: limit, held: 0.0, grip: Grip::Slip };
-        let loss = slider.follow(&LAW, Some(0.01), 10.0);
+        let loss = slider.follow(&LAW, Some(0.01), 10.0, false);
         assert!((loss - 0.4 * 10.0 * 0.01).abs() < 1e-15);
     }
 }

@@ -2,7 +2,7 @@
 
 use super::contact::Contact;
 use super::contact_list::Phases;
-use super::coulomb::{Grip, ROUNDING, Slider};
+use super::coulomb::{Grip, Slider};
 use super::normal::{Approach, Mode, NormalForce, lost_work};
 use super::pair_law::PairLaw;
 use jostle_simd::Lanes;
@@ -127,14 +127,11 @@ impl<V: Lanes> Followed<V> {
             // Holding contacts do not change. If no time has passed, only the normal force may differ. A slipping
             // contact begins to stick by moving back, never by an evaluation alone.
             let (mut lost, mut springs) = (slipped, acts);
-            if V::bits(self.slides) != 0 {
-                lost = V::select(self.slides, self.held * displacement, slipped);
-                springs = acts & !self.slides;
-                // Friction that never has a spring draws none.
-                if !law.exact && V::bits(self.slides & !self.slips) != 0 {
-                    lost = lost - self.draw(law, displacement, acts);
-                    elongation = self.elongation;
-                }
+            if some_held || V::bits(self.slides) != 0 {
+                // A slip at rest along the normal keeps its force: see [`Slider::follow`].
+                let keeps = self.slides | (held & self.slips);
+                lost = V::select(keeps, self.tangential_force(law) * displacement, slipped);
+                springs = acts & !keeps;
             }
             friction = lost.only(acts);
             elongation = V::select(springs, drawn, elongation);
@@ -154,18 +151,6 @@ impl<V: Lanes> Followed<V> {
             friction = friction + self.part(law, gone & touch.overlap.lt(V::splat(f64::INFINITY)));
         }
         Lost { friction, inelasticity }
-    }
-
-    /// Slides draw their springs on the way: see [`Slider::follow`]. Returns the energy in J that the springs take up.
-    #[inline(always)]
-    fn draw(&mut self, law: &PairLaw<V>, displacement: V, among: V::Mask) -> V {
-        let (before, held) = (self.elongation, self.held.abs());
-        let missing = (law.tangential_stiffness * before - self.held).abs();
-        let draws = among & self.slides & !self.slips & (V::splat(ROUNDING) * held).lt(missing);
-        let (trial, most) = (before + displacement, held / law.tangential_stiffness);
-        let drawn = V::select(most.lt(trial.abs()), most.copysign(trial), trial);
-        self.elongation = V::select(draws, drawn, before);
-        V::splat(0.5) * law.tangential_stiffness * (self.elongation * self.elongation - before * before)
     }
 
     /// Contacts come to an end. Returns the energy in J that their tangential springs had.

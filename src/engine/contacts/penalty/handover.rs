@@ -8,7 +8,7 @@
 
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
-use super::coulomb::{Grip, Slider, SliderLaw};
+use super::coulomb::{Grip, Slider};
 use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use super::rolling::RollingContacts;
@@ -38,21 +38,6 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, mode: EvaluationMode, d
     view.contacts.rest.clear();
     if mode == EvaluationMode::Following {
         view.contacts.held.clear();
-        // A slide below a held normal force goes on without its spring.
-        let slip = |slider: &mut Slider, law: &SliderLaw, mode: Mode| {
-            if slider.grip == Grip::Slide && !(mode == Mode::Hold && slider.slides_without_spring(law)) {
-                slider.grip = Grip::Slip;
-            }
-        };
-        for index in 0..view.len() {
-            let geometry = view.look(index);
-            let (mut contact, law, roller) = view.whole(index, &geometry);
-            let mode = contact.mode;
-            slip(&mut contact.tangential, &law.tangential(), mode);
-            if let Some((slider, law)) = roller {
-                slip(slider, &law, mode);
-            }
-        }
         return;
     }
     view.contacts.held_before = Some(view.stored(|_| true));
@@ -61,9 +46,9 @@ pub(super) fn hand_over<N: NormalForce>(view: &mut View, mode: EvaluationMode, d
         let (mut contact, law, roller) = view.whole(index, &geometry);
         let rounding = ROUNDING * contact.normal_force * dt * geometry.approach(bodies).mobility;
         contact.take_over::<N>(law, &geometry, rounding);
-        if let Some((slider, rolling_law)) = roller {
+        if let Some((slider, _)) = roller {
             let stands = geometry.turning().abs() * geometry.pair.b.radius <= rounding;
-            slider.take_over(&rolling_law, stands && contact.mode == Mode::Hold, geometry.turning());
+            slider.take_over(contact.mode, stands, geometry.turning());
         }
     }
 }
@@ -75,32 +60,25 @@ impl Contact {
         if self.mode == Mode::Hold && parting.abs() > rounding {
             self.mode = N::chosen(self.mode, parting);
         }
-        let held = sliding.abs() <= rounding && (law.exact || self.mode == Mode::Hold);
+        let stands = sliding.abs() <= rounding;
         if law.exact {
             // It had a spring for want of anything better.
-            let grip = if held { Grip::Hold } else { Grip::Slide };
+            let grip = if stands { Grip::Hold } else { Grip::Slide };
             self.tangential = Slider { elongation: 0.0, held: 0.0_f64.copysign(sliding), grip };
         } else {
-            self.tangential.take_over(&law.tangential(), held, sliding);
+            self.tangential.take_over(self.mode, stands, sliding);
         }
     }
 }
 
 impl Slider {
-    /// Converts it to a stage of a step, `held` or not, for a relative velocity of the sides of `velocity`.
-    fn take_over(&mut self, law: &SliderLaw, held: bool, velocity: f64) {
-        if self.grip == Grip::Hold && !held {
-            self.let_go(law);
-        }
+    /// Converts it to a stage of a step. Its sides move with `velocity`. `stands`: that is rounding.
+    fn take_over(&mut self, mode: Mode, stands: bool, velocity: f64) {
         match self.grip {
-            Grip::Slip => {
-                self.grip = Grip::Slide;
-                self.held = 0.0_f64.copysign(self.elongation);
-            }
-            // Its direction is known.
-            Grip::Slide => {}
-            Grip::Stick => self.held = 0.0_f64.copysign(velocity),
-            Grip::Hold => {}
+            Grip::Slip => self.held = 0.0_f64.copysign(self.elongation),
+            Grip::Hold if !stands => self.give(velocity > 0.0, true),
+            _ => {}
         }
+        self.adapt(mode, velocity);
     }
 }

@@ -18,6 +18,13 @@ pub(super) enum HeldPart {
     Rolling,
 }
 
+/// Two contacts of the same bodies hold one line if one lies nearly in the surface of the other. Their distance across it is less than
+/// this share of that along it.
+///
+/// Their sides turn against each other by that angle, which is the difference of overlaps over their distance. Both slide by half its
+/// square then. Forces that keep this from being would be as much greater than loads as the angle is small.
+const ONE_LINE: f64 = 1e-2;
+
 /// The contacts of the rows of an evaluation, in the same order.
 #[derive(Default, Serialize, Deserialize)]
 pub(super) struct Held {
@@ -118,8 +125,36 @@ impl Held {
             None => ConePressure::Force(contact.normal_force),
         };
         row.cone = Some(Cone { coefficient: law.friction_static, pressure });
+        self.join_line(rows, &mut row, (geometry, law));
         rows.add(row);
         self.contacts.push((*geometry, HeldPart::Tangent));
+    }
+
+    /// Lets a tangent hold the line of one before it that all but coincides with its own. Its force acts where it is.
+    fn join_line(&self, rows: &Rows, row: &mut Row, (geometry, law): (&PairGeometry, &PairLaw)) {
+        let (ends, tangent) = ((geometry.pair.other_body(), Some(geometry.pair.b.body)), geometry.pair.normal.perp());
+        let own = geometry.contact_arms(law.shares()).1;
+        let one_line = |other: &PairGeometry| {
+            let arms = other.contact_arms(law.shares());
+            let (arm, along) = match (other.pair.other_body(), Some(other.pair.b.body)) {
+                same if same == ends => (arms.1, other.pair.normal.perp()),
+                // Its sides are the other way round.
+                (b, a) if (a, b) == ends => (arms.0, -other.pair.normal.perp()),
+                _ => return false,
+            };
+            let (way, angle) = (arm - own, tangent.perp_dot(along).abs());
+            let across = way.dot(geometry.pair.normal).abs().max(angle * way.length());
+            tangent.dot(along) > 0.0 && across <= ONE_LINE * way.length()
+        };
+        let mut before = self.contacts.iter().zip(self.first..).filter(|((_, part), _)| *part == HeldPart::Tangent);
+        let Some((_, index)) = before.find(|((other, _), _)| one_line(other)) else { return };
+        let first = rows.row(index);
+        for side in row.sides.iter_mut().flatten() {
+            if let Some(of_first) = first.sides.iter().flatten().find(|of_first| of_first.body == side.body) {
+                (side.direction, side.lever) = (of_first.direction, of_first.lever);
+            }
+        }
+        (row.inertial, row.surface) = (first.inertial, first.surface);
     }
 
     /// Holds the turn of a contact.

@@ -150,9 +150,7 @@ fn tell_friction(
 ) {
     let slider = &contact.tangential;
     let motion = SliderMotion::along(geometry, law.shares(), bodies);
-    // If the normal force is held, or friction has no spring, a slipping spring does not follow the limit.
-    let held = law.exact || contact.mode == Mode::Hold;
-    tell_slider((slider, &law.tangential()), (contact.mode, held), pressure, motion, |event, indicator| {
+    tell_slider((slider, &law.tangential()), contact.mode, pressure, motion, |event, indicator| {
         say(
             match event {
                 PhaseEnd::Gives(positive) => What::Give(positive),
@@ -212,11 +210,10 @@ pub(super) enum PhaseEnd {
 /// A share of a velocity or force that counts as rounding.
 const ROUNDING: f64 = 4.0 * f64::EPSILON;
 
-/// The end of the current phase of a spring with a Coulomb limit, and its indicators. `held`: its elongation follows no
-/// limit.
+/// The end of the current phase of a spring with a Coulomb limit, and its indicators.
 pub(super) fn tell_slider(
     (slider, law): (&Slider, &SliderLaw),
-    (mode, held): (Mode, bool),
+    mode: Mode,
     pressure: Pressure,
     motion: SliderMotion,
     mut say: impl FnMut(PhaseEnd, Indicator),
@@ -232,10 +229,12 @@ pub(super) fn tell_slider(
     };
     match slider.grip {
         // A slack contact has no friction that could begin to hold. The number of indicators of a mode does not change.
-        Grip::Slide if mode != Mode::Hold && pressure.force == 0.0 && pressure.rate == 0.0 => {
+        Grip::Slip | Grip::Slide if mode != Mode::Hold && pressure.force == 0.0 && pressure.rate == 0.0 => {
             say(PhaseEnd::Stops, Indicator::new(1.0, 0.0, Bend::AtMost(0.0)));
         }
-        Grip::Slide => {
+        Grip::Slip | Grip::Slide => {
+            // Only a spring that slips follows the limit.
+            let held = slider.grip == Grip::Slide;
             let follows = if held { 0.0 } else { law.friction_dynamic.copysign(sign) / law.stiffness };
             let (rate, second) = if held { (0.0, 0.0) } else { (pressure.rate, pressure.second_rate) };
             let (slip, slope) = (motion.velocity - follows * rate, motion.rate - follows * second);

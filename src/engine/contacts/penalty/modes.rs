@@ -224,7 +224,12 @@ impl Choice<'_> {
         if let Some(other) = case.other_body() {
             moved.mark(other);
         }
-        self.choose_by_velocity::<N>(&case, approach);
+        // Friction without its spring is found anew for each tick.
+        if seen.tangential.grip.is_rigid() {
+            cases.push(case);
+        } else {
+            self.choose_by_velocity::<N>(&case, approach);
+        }
     }
 
     fn choose_by_velocity<N: NormalForce>(&mut self, case: &ContactSides, approach: Approach) {
@@ -386,7 +391,9 @@ impl Choice<'_> {
         let affordable = !N::SET_VALUED || island.is_small();
         let tries = may_rest && !affordable && self.thorough && island.is_slow(self.dt);
         found.tried |= tries;
-        island.solve(may_rest && affordable || tries, self.dt);
+        let holds = |contact: &RestContact| contact.tangential.phase.is_rigid() || contact.rolling.phase.is_rigid();
+        let holds_beside_motion = N::SET_VALUED && island.contacts.iter().any(holds);
+        island.solve((may_rest || holds_beside_motion) && affordable || tries, self.dt);
         let mut entirely = may_rest;
         for (case, outcome) in cases.iter().zip(island.outcomes(self.dt)) {
             match outcome {

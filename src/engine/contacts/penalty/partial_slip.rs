@@ -10,6 +10,7 @@
 use glam::DVec2;
 
 use super::apply::PenaltyContacts;
+use super::contact_list::ContactList;
 use super::coulomb::Grip;
 use super::normal::Mode;
 use super::switching::View;
@@ -18,6 +19,7 @@ use crate::constraints::islands::IslandLink;
 use crate::contacts::CandidatePairs;
 use crate::contacts::geometry::PairGeometry;
 use crate::world::Bodies;
+use jostle_simd::BLOCK;
 
 /// The greatest tangent of the angle between the normal of an opposite contact and the line to the other one. That line is
 /// the surface for corners of a side, and it is the normal for a wheel between plates. In a groove of 120 degrees it is at
@@ -49,7 +51,10 @@ impl Link {
 }
 
 /// Both bodies of a contact in order; `None` for all that does not move.
-fn between(geometry: &PairGeometry, bodies: &Bodies) -> (Option<usize>, Option<usize>) {
+pub(super) type Between = (Option<usize>, Option<usize>);
+
+/// Between which bodies a contact is.
+pub(super) fn between(geometry: &PairGeometry, bodies: &Bodies) -> Between {
     let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
     let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
     (a.min(b), a.max(b))
@@ -69,22 +74,42 @@ impl PenaltyContacts {
         let surfaces = self.surfaces.touching().map(|index| self.atoms.len() + index);
         atoms.chain(surfaces).collect()
     }
+
+    /// Contacts that have opened in partial slip begin anew, like all others, if they touch again.
+    fn end_partial_slip(&mut self) {
+        let Self { laws, atoms, surfaces, .. } = self;
+        let is_partial = |law: u32| laws.twin(law) < law;
+        for list in [atoms, surfaces] {
+            if list.only_law.is_some_and(|law| !is_partial(law)) {
+                continue;
+            }
+            let law_of = |list: &ContactList, index: usize| list.law[index / BLOCK][index % BLOCK];
+            for index in 0..list.len() {
+                let law = law_of(list, index);
+                if is_partial(law) && !list.is_touching(index) {
+                    list.edit(index).law = laws.twin(law);
+                }
+            }
+        }
+    }
 }
 
 impl View<'_> {
-    /// Friction that holds at its bound beside contacts whose friction gives way now gives way with them. Others of the same bodies
-    /// held it so far.
-    pub(super) fn give_together(&mut self, gave: &[u32]) {
-        let between = |view: &Self, index: usize| between(&view.look(index), view.bodies);
-        let groups: Vec<_> = gave.iter().map(|&index| between(self, index as usize)).collect();
-        for index in 0..if groups.is_empty() { 0 } else { self.len() } {
-            let bodies = between(self, index);
+    /// Some contacts give way now. Friction of the same bodies that holds at its bound gives way with them, to the same side. They held
+    /// it so far. `gave`: their bodies, and whether their forces are positive.
+    pub(super) fn give_together(&mut self, gave: &[(Between, bool)]) {
+        for index in 0..if gave.is_empty() { 0 } else { self.len() } {
+            let bodies = between(&self.look(index), self.bodies);
             let (mut contact, law) = self.contact(index);
             let slider = law.tangential();
             let limit = slider.friction_static * contact.normal_force;
             let force = contact.tangential.force(&slider);
             let bound = contact.mode != Mode::Open && contact.tangential.grip == Grip::Hold && slider.acts();
-            if bound && force != 0.0 && force.abs() >= limit * (1.0 - DEPENDENT) && groups.contains(&bodies) {
+            if bound
+                && force != 0.0
+                && force.abs() >= limit * (1.0 - DEPENDENT)
+                && gave.contains(&(bodies, force > 0.0))
+            {
                 contact.give(law, force > 0.0);
             }
         }
@@ -97,6 +122,7 @@ impl View<'_> {
         if !self.contacts.laws.some_drop() {
             return false;
         }
+        self.contacts.end_partial_slip();
         let mut links = Vec::new();
         for index in self.contacts.perhaps_several((self.bodies, self.pairs)) {
             let (geometry, bodies) = (self.look(index), self.bodies);
@@ -134,7 +160,8 @@ impl View<'_> {
         }
         self.contact(link.index).0.law = other;
         let (mut contact, law) = self.contact(link.index);
-        let slides = contact.tangential.grip == Grip::Slide;
+        let grip = contact.tangential.grip;
+        let slides = grip == Grip::Slide || staged && grip == Grip::Slip;
         if slides {
             contact.tangential.held = contact.tangential.sliding_force(&law.tangential(), contact.normal_force);
         }

@@ -139,7 +139,7 @@ impl Follow<'_> {
         let turn_of = |end: &ContactEnd| self.bodies.displacement(end.body).1;
         let turn = turn_of(b) - a.map_or(0.0, turn_of);
         let turn = (self.elapsed > 0.0).then_some(turn);
-        self.losses.friction += slider.follow(law, turn, contact.normal_force);
+        self.losses.friction += slider.follow(law, turn, contact.normal_force, contact.mode == Mode::Hold);
         twist(self.bodies, self.rates, a, b, slider.force(law));
     }
 }

@@ -52,12 +52,6 @@ pub(super) fn read(contacts: &PenaltyContacts, rolling: &RollingContacts, state:
     state.iter_mut().zip(own).for_each(|(state, (_, slider))| *state = slider.elongation);
 }
 
-/// The units of errors of the angles in the state.
-pub(super) fn measures(contacts: &PenaltyContacts, rolling: &RollingContacts, measures: &mut [f64]) {
-    let own = springs(contacts, rolling).filter(is_state);
-    measures.iter_mut().zip(own).for_each(|(measure, (_, slider))| *measure = slider.measure());
-}
-
 /// State -> springs.
 pub(super) fn write(contacts: &PenaltyContacts, rolling: &mut RollingContacts, state: &[f64]) {
     let RollingContacts { atoms, surfaces, .. } = rolling;
@@ -85,7 +79,7 @@ pub(super) fn rates(
 
 /// Signed torque per newton of normal force of a slipping spring under a held normal force.
 pub(super) fn slope((slider, law): &Roller, contact: &Contact) -> f64 {
-    let slips = contact.mode == Mode::Hold && slider.grip == Grip::Slide;
+    let slips = contact.mode == Mode::Hold && slider.grip.gives();
     if slips { law.friction_dynamic.copysign(slider.held) } else { 0.0 }
 }
 
@@ -101,19 +95,19 @@ pub(super) fn stage(
         Grip::Hold => {
             held.add_rolling(rows, geometry, share(slider, &law, pair.stiffness * geometry.overlap), sink.bodies)
         }
-        Grip::Slide if contact.mode == Mode::Hold => {}
-        Grip::Slide => {
-            slider.slide(&law, contact.normal_force, false);
+        Grip::Slip | Grip::Slide if contact.mode == Mode::Hold => {}
+        Grip::Slip | Grip::Slide => {
+            slider.slide(&law, contact.normal_force);
             push(slider, slider.sliding_force(&law, contact.normal_force), geometry, sink);
         }
-        Grip::Stick | Grip::Slip => push(slider, slider.force(&law), geometry, sink),
+        Grip::Stick => push(slider, slider.force(&law), geometry, sink),
     }
 }
 
 /// Lets the spring act with a torque, and books what slipping takes.
 pub(super) fn push(slider: &Slider, torque: f64, geometry: &PairGeometry, sink: &mut Sink) {
     twist(sink.bodies, sink.rates, geometry.pair.other_end(), &geometry.pair.b, torque);
-    if slider.grip == Grip::Slide {
+    if slider.grip.gives() {
         sink.rates.friction += torque * geometry.turning();
     }
 }
@@ -128,8 +122,7 @@ pub(super) fn tell(
     mut say: impl FnMut(What, Indicator),
 ) {
     let motion = SliderMotion::of_turning(geometry, bodies);
-    let modes = (contact.mode, contact.mode == Mode::Hold);
-    tell_slider((slider, law), modes, pressure, motion, |event, indicator| {
+    tell_slider((slider, law), contact.mode, pressure, motion, |event, indicator| {
         say(
             match event {
                 PhaseEnd::Gives(positive) => What::RollingGive(positive),
@@ -148,7 +141,8 @@ pub(super) fn begin((slider, law): Roller, contact: &Contact, geometry: &PairGeo
     slider.grip = match base.is_none_or(|base| base.bears(&law, turning)) {
         true if turning == 0.0 && contact.mode == Mode::Hold => Grip::Hold,
         true => Grip::Stick,
-        false => Grip::Slide,
+        false if contact.mode == Mode::Hold => Grip::Slide,
+        false => Grip::Slip,
     };
 }
 
@@ -156,22 +150,21 @@ pub(super) fn begin((slider, law): Roller, contact: &Contact, geometry: &PairGeo
 pub(super) fn switch((slider, law): Roller, contact: &Contact, what: What, geometry: &PairGeometry) {
     match what {
         What::RollingGive(positive) => {
-            slider.grip = Grip::Slide;
-            slider.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
-            slider.slide(&law, contact.normal_force, contact.mode == Mode::Hold);
+            slider.give(positive, contact.mode == Mode::Hold || slider.grip.is_rigid());
+            slider.slide(&law, contact.normal_force);
         }
-        What::RollingStop => slider.grip = if contact.mode == Mode::Hold { Grip::Hold } else { Grip::Stick },
+        What::RollingStop => slider.stop(),
         _ => {}
     }
-    come_loose((slider, law), contact, geometry);
+    adapt((slider, law), contact, geometry);
 }
 
 /// Brings the spring into line with the normal mode of its contact.
-pub(super) fn come_loose((slider, law): Roller, contact: &Contact, geometry: &PairGeometry) {
+pub(super) fn adapt((slider, _): Roller, contact: &Contact, geometry: &PairGeometry) {
     if contact.mode == Mode::Open {
         *slider = Slider::default();
     }
-    slider.come_loose(&law, contact.mode != Mode::Hold, geometry.turning());
+    slider.adapt(contact.mode, geometry.turning());
 }
 
 /// The preferred load of a rolling spring on side B, if the spring of the contact pulls with `pull` newtons.

@@ -25,7 +25,8 @@ fn moves_on(law: &PairLaw, geometry: &PairGeometry, bodies: &Bodies) -> Option<M
 impl View<'_> {
     /// Corrects modes that cannot last under the forces just evaluated. Says whether there were any.
     ///
-    /// Friction waits for the normal forces, and for `rows` that contradict each other. A contact that is tried as held has a separate force until it is released.
+    /// Friction waits for the normal forces, and for `rows` that contradict each other. A contact that is tried as held has a
+    /// separate force until it is released.
     pub fn settle<N: NormalForce>(&mut self, rows: &Rows) -> bool {
         self.open_account();
         let corrected = self.share_cones(true)
@@ -86,7 +87,7 @@ impl View<'_> {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
                 let base = Base { force: contact.normal_force.min(greatest).max(least), rate: 0.0, is_slack: false };
                 let before = springs.get(index).copied().unwrap_or_default();
-                corrected |= contact.tangential.settle_force(&law.tangential(), base, before[0]);
+                corrected |= contact.tangential.settle_force(&law.tangential(), base, before[0], true);
             }
         }
         self.contacts.before = springs;
@@ -119,7 +120,7 @@ impl View<'_> {
             // stick under no force within the bounds.
             let gives = |slider: &mut Slider, law: &SliderLaw, before: Option<Slider>| {
                 let below = is_below && slider.grip == Grip::Stick;
-                slider.swing_back(before) || below && slider.settle_force(law, base, None)
+                slider.swing_back(before) || below && slider.settle_force(law, base, None, true)
             };
             let slider_law = law.tangential();
             let gave = slider_law.acts() && gives(&mut contact.tangential, &slider_law, before[0]);
@@ -147,10 +148,10 @@ impl View<'_> {
         let (mut contact, law, roller) = self.whole(index, &geometry);
         contact.mode = mode;
         contact.tangential.undo_slide(before[0]);
-        contact.come_loose(law, &geometry);
+        contact.adapt_friction(law, &geometry);
         if let Some((slider, law)) = roller {
             slider.undo_slide(before[1]);
-            rolling_stages::come_loose((slider, law), &contact, &geometry);
+            rolling_stages::adapt((slider, law), &contact, &geometry);
         }
     }
 
@@ -242,6 +243,7 @@ impl View<'_> {
             let (geometry, bodies) = (self.look(index as usize), self.bodies);
             let (mut contact, law, roller) = self.whole(index as usize, &geometry);
             contact.mode = Mode::Hold;
+            contact.adapt_friction(law, &geometry);
             if !twice.contains(&index) && !law.exact {
                 contact.tangential.hold_still(&law.tangential(), &SliderMotion::along(&geometry, law.shares(), bodies));
                 if let Some((slider, law)) = roller {
@@ -270,17 +272,19 @@ impl View<'_> {
             let base = Base::of::<N>(&contact, law, &geometry, bodies);
             if law.tangential().acts() && which(contact.tangential.grip) {
                 let motion = (geometry.sliding(law.shares()), geometry.speed(law.shares()));
+                let rigid = contact.holds_rigidly(law);
                 let slider = &mut contact.tangential;
                 // A spring that gives has its new elongation once it was evaluated.
                 corrected |= slider.settle_jump(&law.tangential(), before[0], motion.0)
-                    || slider.settle_force(&law.tangential(), base, before[0])
+                    || slider.settle_force(&law.tangential(), base, before[0], rigid)
                     || !(law.exact || slider.yielded(before[0]))
                         && slider.settle_motion(&law.tangential(), base, motion);
             }
+            let rests = contact.mode == Mode::Hold;
             if let Some((slider, law)) = roller.filter(|(slider, _)| which(slider.grip)) {
                 let motion = (geometry.turning(), geometry.turning_speed());
                 corrected |= slider.settle_jump(&law, before[1], motion.0)
-                    || slider.settle_force(&law, base, before[1])
+                    || slider.settle_force(&law, base, before[1], rests)
                     || !slider.yielded(before[1]) && slider.settle_motion(&law, base, motion);
             }
         }
@@ -290,6 +294,7 @@ impl View<'_> {
 
     /// Chooses all modes of a state that did not follow from the one before.
     pub fn take_stock<N: NormalForce>(&mut self) {
+        let mut fresh = Vec::new();
         for index in 0..self.len() {
             let geometry = self.look(index);
             let (mut contact, law, roller) = self.whole(index, &geometry);
@@ -299,10 +304,12 @@ impl View<'_> {
                 if let Some(roller) = roller {
                     rolling_stages::begin(roller, &contact, &geometry, None);
                 }
+                fresh.push(index as u32);
             }
             if contact.mode != Mode::Open && contact.mode != Mode::Hold {
                 contact.mode = standing_mode::<N>(law, contact.mode, geometry.parting());
             }
         }
+        self.contacts.fresh = fresh;
     }
 }

@@ -57,10 +57,10 @@ pub(super) fn stop_together<N: NormalForce>(view: &mut View, named: &[u32], erro
             let mut joined = false;
             if N::SET_VALUED && moves::<N>(&contact, law) && geometry.parting().abs() <= rounding.max(error) {
                 contact.mode = Mode::Hold;
+                contact.adapt_friction(law, &geometry);
                 joined = true;
             }
-            let slides = contact.tangential.grip == Grip::Slide && contact.holds_rigidly(law);
-            let grips = slides && geometry.sliding(shares).abs() <= rounding;
+            let grips = contact.tangential.grip == Grip::Slide && geometry.sliding(shares).abs() <= rounding;
             if grips {
                 contact.tangential.grip = Grip::Hold;
             }
@@ -118,6 +118,7 @@ pub(super) fn hold<N: NormalForce>(contacts: &mut PenaltyContacts, bodies: &Bodi
         let stands = still && !waits && geometry.parting_rate(law.shares(), bodies).abs() <= STANDS * pushed;
         if stands {
             contact.mode = Mode::Hold;
+            contact.adapt_friction(law, geometry);
         }
         let grips = hold_friction(&mut contact, law, geometry, bodies);
         (stands || grips).then_some(contact)

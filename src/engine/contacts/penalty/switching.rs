@@ -14,6 +14,7 @@
 //! Accelerations, not velocities, decide a mode that begins at rest. It is tried as held. If the holding forces are out
 //! of bounds, it takes the mode beyond the bound.
 
+use super::TangentialLaw;
 use super::apply::PenaltyContacts;
 use super::contact::Contact;
 use super::contact_list::Edited;
@@ -21,6 +22,7 @@ use super::coulomb::{Grip, Slider, SliderLaw};
 use super::indicators::SliderMotion;
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::{LawTable, PairLaw};
+use super::partial_slip::between;
 use super::rolling::RollingContacts;
 use super::rolling_stages::{self, Roller};
 use super::standing;
@@ -125,13 +127,6 @@ pub(super) fn read(contacts: &PenaltyContacts, state: &mut [f64]) {
     }
 }
 
-/// The units of errors of the elongations in the state.
-pub(super) fn measures(contacts: &PenaltyContacts, measures: &mut [f64]) {
-    for (measure, contact) in measures.iter_mut().zip(springs(contacts)) {
-        *measure = contact.tangential.measure();
-    }
-}
-
 /// State -> contacts.
 pub(super) fn write(contacts: &mut PenaltyContacts, state: &[f64]) {
     let PenaltyContacts { atoms, surfaces, laws, .. } = contacts;
@@ -190,8 +185,13 @@ impl View<'_> {
         let (mut turned, mut gave) = (Vec::new(), Vec::new());
         for &index in fired {
             let Some((pair, what)) = self.told(index) else { continue };
-            if matches!(what, What::Give(_)) {
-                gave.push(pair);
+            if let What::Give(positive) = what {
+                // Rows that all but depend on each other have huge forces, and give at once. Without the first, forces change.
+                let bodies = between(&self.look(pair as usize), self.bodies);
+                if gave.contains(&(bodies, !positive)) {
+                    continue;
+                }
+                gave.push((bodies, positive));
             }
             self.note_given(pair as usize, what);
             if matches!(what, What::Lower | What::Upper) {
@@ -203,7 +203,7 @@ impl View<'_> {
             let (mut contact, law, roller) = self.whole(pair as usize, &geometry);
             let base = Base::at_touch::<N>(law, &geometry, bodies);
             contact.switch::<N>(law, what, &geometry, base);
-            contact.come_loose(law, &geometry);
+            contact.adapt_friction(law, &geometry);
             let (stands, normal_force) =
                 (matches!(what, What::Turn) && contact.mode == Mode::Hold, contact.normal_force);
             if stands {
@@ -216,7 +216,7 @@ impl View<'_> {
             match (roller, what) {
                 (Some((slider, rolling_law)), What::Turn) if stands => {
                     let motion = SliderMotion::of_turning(&geometry, bodies);
-                    rolling_stages::come_loose((&mut *slider, rolling_law), &contact, &geometry);
+                    rolling_stages::adapt((&mut *slider, rolling_law), &contact, &geometry);
                     slider.stop_still_swing(&rolling_law, normal_force, &motion);
                 }
                 (Some(roller), What::Touch) => rolling_stages::begin(roller, &contact, &geometry, Some(base)),
@@ -303,19 +303,26 @@ impl View<'_> {
         [Some(pair.b.body), pair.other_body()].into_iter().flatten().filter(|&body| self.bodies.dynamic[body])
     }
 
-    /// Notes the springs that hold or stick, or slip beside a normal force that is not held.
+    /// Notes the springs that hold, stick or slip.
     pub(super) fn note_springs(&mut self) {
         let mut before = std::mem::take(&mut self.contacts.before);
         before.clear();
-        before.resize(self.len(), [None, None]);
+        // One that begins at this moment begins with its springs, whatever modes are tried.
+        let exact = self.contacts.settings.tangential == TangentialLaw::Exact;
+        let begins = [Some(Slider::default()).filter(|_| !exact), Some(Slider::default())];
+        before.resize(self.len(), begins);
+        let fresh = std::mem::take(&mut self.contacts.fresh);
         for index in self.touching() {
+            if fresh.contains(&(index as u32)) {
+                continue;
+            }
             let geometry = self.look(index);
             let (contact, law, roller) = self.whole(index, &geometry);
-            let noted = |slider: &Slider| match (contact.mode, slider.grip) {
-                (Mode::Hold, Grip::Slide) | (_, Grip::Slip) => None,
+            let noted = |slider: &Slider| match slider.grip {
+                Grip::Slide => None,
                 _ => Some(*slider),
             };
-            let tangential = if law.exact { None } else { noted(&contact.tangential) };
+            let tangential = noted(&contact.tangential).filter(|_| !law.exact);
             before[index] = [tangential, roller.and_then(|(slider, _)| noted(slider))];
         }
         self.contacts.before = before;
@@ -379,7 +386,7 @@ impl View<'_> {
     }
 
     pub(super) fn sliding_energy(&mut self) -> f64 {
-        self.stored(|grip| grip == Grip::Slide)
+        self.stored(|grip| grip == Grip::Slip)
     }
 }
 
@@ -497,7 +504,8 @@ impl Contact {
         (self.tangential.grip, self.tangential.held) = match (sticks, held) {
             (true, true) => (Grip::Hold, 0.0),
             (true, false) => (Grip::Stick, 0.0_f64.copysign(sliding)),
-            (false, _) => (Grip::Slide, 0.0_f64.copysign(sliding)),
+            (false, _) if self.holds_rigidly(law) => (Grip::Slide, 0.0_f64.copysign(sliding)),
+            (false, _) => (Grip::Slip, 0.0_f64.copysign(sliding)),
         };
     }
 
@@ -516,7 +524,7 @@ impl Contact {
             What::Upper => self.mode = Mode::Loading,
             What::Give(positive) if self.mode != Mode::Open => self.give(law, positive),
             What::Stop if self.mode != Mode::Open => {
-                self.tangential.grip = if self.holds_rigidly(law) { Grip::Hold } else { Grip::Stick };
+                self.tangential.stop();
             }
             What::Touch | What::Give(_) | What::Stop | What::RollingGive(_) | What::RollingStop | What::Border(_) => {}
         }
@@ -524,30 +532,23 @@ impl Contact {
 
     /// Friction gives way with a force of this sign.
     pub(super) fn give(&mut self, law: &PairLaw, positive: bool) {
-        self.tangential.grip = Grip::Slide;
-        self.tangential.held = 0.0_f64.copysign(if positive { 1.0 } else { -1.0 });
+        self.tangential.give(positive, self.holds_rigidly(law));
         self.slide(law, self.normal_force);
     }
 
-    /// Adapts the spring to a normal mode that has changed. When the normal is released, the spring replaces the hold.
-    /// A holding spring remembers its direction.
-    pub(super) fn come_loose(&mut self, law: &PairLaw, geometry: &PairGeometry) {
-        // Friction without a spring holds beside any normal force.
-        let is_loose = !law.exact && self.mode != Mode::Hold;
-        self.tangential.come_loose(&law.tangential(), is_loose, geometry.sliding(law.shares()));
+    /// Adapts friction to a normal mode that has changed.
+    pub(super) fn adapt_friction(&mut self, law: &PairLaw, geometry: &PairGeometry) {
+        self.tangential.adapt(self.mode, geometry.sliding(law.shares()));
     }
 
-    /// Whether friction holds without a spring as soon as the sides stop. It does at rest along the normal, or if it has none.
+    /// Whether friction acts without a spring: at rest along the normal, after it has rested, or if it has none.
     pub(super) fn holds_rigidly(&self, law: &PairLaw) -> bool {
-        law.exact || self.mode == Mode::Hold
+        law.exact || self.mode == Mode::Hold || self.tangential.grip.is_rigid()
     }
 
     /// While it slips: the force along the surface under a normal force, in the direction it has.
     pub(super) fn slide(&mut self, law: &PairLaw, normal_force: f64) {
-        self.tangential.slide(&law.tangential(), normal_force, self.mode == Mode::Hold);
-        if law.exact {
-            self.tangential.elongation = 0.0;
-        }
+        self.tangential.slide(&law.tangential(), normal_force);
     }
 
     /// Modes that follow from the state itself.
@@ -563,7 +564,7 @@ impl Contact {
         }
         let limit = law.friction_dynamic * N::smooth_force(law, self.mode, geometry.overlap, approach).max(0.0);
         let sliding = geometry.sliding(law.shares());
-        self.tangential.grip = Grip::Slide;
+        self.tangential.grip = if law.exact { Grip::Slide } else { Grip::Slip };
         self.tangential.held = limit.copysign(sliding);
     }
 }

@@ -56,15 +56,6 @@ impl<N: NormalForce> Events for Contacts<N> {
         }
     }
 
-    fn measures(&self, numbers: &mut [f64]) {
-        let PenaltyState { contacts, rolling } = &self.own;
-        let (elongations, angles) = numbers.split_at_mut(switching::length(contacts));
-        switching::measures(contacts, elongations);
-        if let Some(rolling) = rolling {
-            rolling_stages::measures(contacts, rolling, angles);
-        }
-    }
-
     fn write(&mut self, numbers: &[f64]) {
         let PenaltyState { contacts, rolling } = &mut self.own;
         let (elongations, angles) = numbers.split_at(switching::length(contacts));
