@@ -4,6 +4,7 @@ use clap::Args;
 
 use super::film_times::Misfit;
 use super::flags::{OverrideFlags, StrictFlag};
+use super::interrupt;
 use super::load::Request;
 use super::pace::{Ended, Runner};
 use super::progress_bar::Progress;
@@ -53,6 +54,7 @@ impl Check {
             return Exit::Usage;
         }
         let check = |name: &String| {
+            interrupt::disarm();
             let request = Request { name, json: self.json, silent: self.quiet || self.json };
             let overrides = Overrides { untried: !self.run, ..self.overrides.overrides() };
             match request.load(&self.overrides.settings, &overrides) {
@@ -63,7 +65,8 @@ impl Check {
                 },
             }
         };
-        self.scenes.iter().map(check).fold(Exit::Good, Exit::worse)
+        let wanted = self.scenes.iter().take_while(|_| !interrupt::asked());
+        wanted.map(check).fold(Exit::Good, Exit::worse)
     }
 
     fn tell(&self, request: Request, simulation: Simulation) -> Exit {
@@ -97,9 +100,10 @@ impl Check {
     fn run(&self, request: Request, mut simulation: Simulation) -> Exit {
         let progress = Progress::new(simulation.ticks(), "ticks", self.quiet || self.json);
         let end = simulation.ticks();
+        interrupt::arm();
+        interrupt::reach_into(&mut simulation);
         let failure = match (Runner { progress, wall_clock: None }).run_to(&mut simulation, end) {
             Err(Ended::Wrong(failure)) => Some(failure),
-            // Nothing waits for a Ctrl-C here.
             Ok(()) | Err(Ended::Interrupted) => None,
         };
         let ran = Ran { strict: self.strict.strict, ..Ran::whole(&simulation, failure.as_ref()) };

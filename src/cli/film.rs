@@ -78,6 +78,8 @@ pub(super) struct FilmRequest<'a> {
     pub most_bytes: Option<u64>,
     /// `--pace`.
     pub pace: bool,
+    /// A film that a Ctrl-C ends is not kept, and its file stays as it was.
+    pub whole: bool,
     /// No progress bar.
     pub silent: bool,
     /// Messages only if there is a mistake.
@@ -126,7 +128,8 @@ impl FilmRequest<'_> {
         let threads = self.threads.unwrap_or_else(|| std::thread::available_parallelism().map_or(1, Into::into));
         let theme = colors::theme(self.request, self.source, simulation, self.theme)?;
         // A target that cannot be written is to be known before the first run, not after it.
-        let settings = FilmSettings { frames_per_second, threads: 1, live: self.pace, ..FilmSettings::default() };
+        let (live, whole) = (self.pace, self.whole);
+        let settings = FilmSettings { frames_per_second, threads: 1, live, whole, ..FilmSettings::default() };
         let view = View { camera: Camera::look(glam::DVec2::ZERO, 1.0, size), theme, frame_step: step, panel: None };
         let mut set = Set { order: self, settings, view };
         let theme = colors::file(self.source, simulation, self.theme);
@@ -236,6 +239,9 @@ impl Set<'_> {
             Ok(())
         });
         drop(progress);
+        if order.whole && interrupt::asked() {
+            return Err(Exit::Interrupted);
+        }
         let failure = match recorded {
             Err(Trouble::Output(error)) => return Err(order.refuse(&error)),
             Err(Trouble::Spool(error)) => return Err(order.refuse_spool(&error)),

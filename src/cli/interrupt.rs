@@ -12,22 +12,25 @@ static ASKED: AtomicBool = AtomicBool::new(false);
 /// Whether the command has begun with what an interruption keeps.
 static KEEPS: AtomicBool = AtomicBool::new(false);
 
-/// From here on a Ctrl-C ends the program with a word. Trials of a tolerance and a look ahead for the camera keep nothing. The next scene
-/// of a command calls it again.
-pub(super) fn watch() {
-    KEEPS.store(false, Ordering::Relaxed);
+/// From here on a Ctrl-C is heard, in all commands.
+pub(super) fn listen() {
     let end = || {
         if ASKED.swap(true, Ordering::Relaxed) {
             std::process::exit(Exit::Interrupted as i32);
         }
         if !KEEPS.load(Ordering::Relaxed) {
-            say("interrupted before the first row or frame: there is nothing to keep");
+            say("interrupted: there is nothing to keep");
             std::process::exit(Exit::Interrupted as i32);
         }
         say("interrupted: the program keeps all that was reached. Press Ctrl-C again to end it at once");
     };
-    // The second scene of a command finds the handler of the first. Without any, Ctrl-C ends the program.
+    // A program that has a handler of its own keeps it.
     let _ = ctrlc::set_handler(end);
+}
+
+/// From here on a Ctrl-C ends the program with a word. Trials of a tolerance and a look ahead for the camera keep nothing.
+pub(super) fn disarm() {
+    KEEPS.store(false, Ordering::Relaxed);
 }
 
 /// From here on a Ctrl-C waits for the end of the tick or step.

@@ -5,8 +5,8 @@ use std::fmt::Write;
 use super::trial::{Trial, Verdict};
 use crate::scene::{is_hidden, visible_line};
 
-/// A result by name; `None` for files that are not scenes.
-pub(super) type Named<'a> = (&'a str, Option<&'a Trial>);
+/// A result by name, or the reason for which there is none.
+pub(super) type Named<'a> = (&'a str, Result<&'a Trial, &'static str>);
 
 /// The whole report; `seconds` were spent in all.
 pub(super) fn report(results: &[Named], seconds: f64) -> String {
@@ -15,9 +15,9 @@ pub(super) fn report(results: &[Named], seconds: f64) -> String {
     for &(name, trial) in results {
         let mut cases = String::new();
         let counts = match trial {
-            Some(trial) => cases_of(name, trial, &mut cases),
-            None => {
-                case(&mut cases, name, "runs", 0.0, &Answer::Skipped("not a scene"));
+            Ok(trial) => cases_of(name, trial, &mut cases),
+            Err(why) => {
+                case(&mut cases, name, "runs", 0.0, &Answer::Skipped(why));
                 Counts { tests: 1, skipped: 1, ..Counts::default() }
             }
         };
@@ -139,7 +139,7 @@ mod tests {
             hash: None,
             seconds: 0.25,
         };
-        let report = report(&[("a.ron", Some(&trial)), ("theme.ron", None)], 1.5);
+        let report = report(&[("a.ron", Ok(&trial)), ("theme.ron", Err("not a scene"))], 1.5);
         let expected = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>
 <testsuites name=\"jostle\" tests=\"4\" failures=\"1\" errors=\"0\" skipped=\"1\" time=\"1.500\">
   <testsuite name=\"a.ron\" tests=\"3\" failures=\"1\" errors=\"0\" skipped=\"0\" time=\"0.250\">

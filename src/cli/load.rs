@@ -47,7 +47,7 @@ impl Request<'_> {
         overrides: &Overrides,
     ) -> Result<(Source, Simulation), SceneErrors> {
         let source = source(self.name)?.with_settings(settings);
-        let _sign = Reading::begin(self.silent);
+        let _sign = Reading::begin(self.name, self.silent);
         let simulation = Simulation::load_with(&source, overrides, author::plugin)?;
         Ok((source, simulation))
     }

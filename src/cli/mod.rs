@@ -161,6 +161,7 @@ impl CommandLine {
     /// Executes the command. Messages go to standard error, results to standard output.
     pub fn execute(self) -> Exit {
         load::allow_outside(self.allow_outside);
+        interrupt::listen();
         match self.command {
             Command::Run(run) => run.execute(),
             Command::Render(render) => render.execute(),

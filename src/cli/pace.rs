@@ -16,6 +16,13 @@ pub(super) enum Ended {
     Interrupted,
 }
 
+impl Ended {
+    /// The end that a failure is.
+    pub fn of(failure: Failure) -> Self {
+        interrupt::unless_asked(failure).map_or(Self::Interrupted, Self::Wrong)
+    }
+}
+
 /// The shortest time between two updates of the bar.
 const BEAT: Duration = Duration::from_millis(50);
 
@@ -44,7 +51,7 @@ impl Runner {
             let start = Instant::now();
             let next = simulation.clock().ticks.saturating_add(batch);
             let ran = simulation.run_to_tick(next.min(tick));
-            ran.map_err(|failure| interrupt::unless_asked(failure).map_or(Ended::Interrupted, Ended::Wrong))?;
+            ran.map_err(Ended::of)?;
             self.progress.at(simulation.clock().ticks);
             if self.wall_clock.is_some() {
                 continue;

@@ -8,6 +8,7 @@ use std::time::{Duration, Instant};
 use indicatif::ProgressBar;
 
 use super::progress_bar::Lines;
+use crate::scene::visible_line;
 
 /// The time before the first sign, and between two of them.
 const STEP: Duration = Duration::from_secs(1);
@@ -19,23 +20,24 @@ pub(super) struct Reading {
 }
 
 impl Reading {
-    /// Begins now. Nothing shows a `silent` one.
-    pub fn begin(silent: bool) -> Self {
+    /// Begins now, for a scene of a name. Nothing shows a `silent` one.
+    pub fn begin(name: &str, silent: bool) -> Self {
         if silent {
             return Self { done: None, thread: None };
         }
+        let name = visible_line(name).into_owned();
         if !std::io::stderr().is_terminal() {
             let lines = Lines::begin();
             return Self::show_each(STEP, move |_| {
                 if let Some(since) = lines.due() {
-                    eprintln!("progress: {}", message(since));
+                    eprintln!("progress: {}", message(&name, since));
                 }
             });
         }
         let mut bar = None;
         Self::show_each(STEP, move |since| {
             let bar = bar.get_or_insert_with(ProgressBar::new_spinner);
-            bar.set_message(message(since));
+            bar.set_message(message(&name, since));
             bar.tick();
         })
     }
@@ -54,8 +56,8 @@ impl Reading {
 }
 
 /// A tolerance finds its steps before the run, which takes most of the time.
-fn message(since: Duration) -> String {
-    format!("reading the scene and finding its steps, {} s", since.as_secs())
+fn message(name: &str, since: Duration) -> String {
+    format!("{name}: reading the scene and finding its steps, {} s", since.as_secs())
 }
 
 impl Drop for Reading {

@@ -144,7 +144,7 @@ impl Render {
         let layers = self.layers.clone().map(|layers| layers.0);
         let threads = Some(self.threads.unwrap_or_else(all_cores));
         let overrides = Overrides { layers, threads, ..self.overrides.overrides() };
-        interrupt::watch();
+        interrupt::disarm();
         let (source, mut simulation) = match request.load(&self.overrides.settings, &overrides) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,
@@ -161,6 +161,7 @@ impl Render {
             theme: self.theme.as_deref(),
             most_bytes: self.max_size,
             pace: self.pace,
+            whole: false,
             silent: self.quiet || self.json,
             quiet: self.quiet,
         };

@@ -60,15 +60,16 @@ pub(super) fn tell(request: Request, ran: &Ran, detail: Detail) -> Exit {
     let Ran { simulation, failure, cut, back, strict } = *ran;
     let card = simulation.card();
     let mut exit = Exit::Good;
-    let cut = cut || interrupt::asked();
+    let (time, end) = (simulation.state().reached(), simulation.ticks() as f64 * simulation.clock().dt);
+    let cut = cut || interrupt::asked() && time < end;
     if interrupt::asked() {
-        let time = simulation.state().reached();
-        let (time, end) = (time, simulation.ticks() as f64 * simulation.clock().dt);
-        let (time, end) = (number(time), number(end));
-        say(&format!(
-            "note: {}: Ctrl-C ended the run at t = {time} s of {end} s. All results are those until then",
-            request.name
-        ));
+        let told = if time < end {
+            let (time, end) = (number(time), number(end));
+            format!("Ctrl-C ended the run at t = {time} s of {end} s. All results are those until then")
+        } else {
+            "Ctrl-C came after the end of the run. Its results are whole, but for the estimate of its error".to_owned()
+        };
+        say(&format!("note: {}: {told}", request.name));
         exit = Exit::Interrupted;
     }
     if let Some(failure) = failure {

@@ -101,7 +101,6 @@ impl RunArguments {
         if self.json && self.output.as_deref() == Some(Path::new("-")) {
             return request.usage("standard output takes the channels or the result as JSON, not both: give -o a file");
         }
-        interrupt::watch();
         let (source, mut simulation) = match request.load(&self.overrides.settings, &self.overrides(None)) {
             Ok(loaded) => loaded,
             Err(exit) => return exit,

@@ -4,18 +4,20 @@ use std::collections::BTreeMap;
 use std::sync::atomic::{AtomicUsize, Ordering};
 use std::sync::mpsc;
 
+use super::interrupt;
+
 /// The default number of threads: one for each core.
 pub(super) fn all_cores() -> usize {
     std::thread::available_parallelism().map_or(1, Into::into)
 }
 
-/// Does `work` once for each item on this many threads. `told` receives the results in the order of the items. Each arrives as
-/// soon as it and all before it are done.
+/// Does `work` once for each item on this many threads, until a Ctrl-C. An interrupted item has no result. `told` receives each index
+/// with its result, in order. It arrives as soon as that item and all before it are done.
 pub(super) fn in_order<Item: Sync, Done: Send>(
     items: &[Item],
     threads: usize,
-    work: impl Fn(&Item) -> Done + Sync,
-    mut told: impl FnMut(Done),
+    work: impl Fn(&Item) -> Option<Done> + Sync,
+    mut told: impl FnMut(usize, Done),
 ) {
     let next = AtomicUsize::new(0);
     let (sender, receiver) = mpsc::channel();
@@ -27,7 +29,8 @@ pub(super) fn in_order<Item: Sync, Done: Send>(
                     let index = next.fetch_add(1, Ordering::Relaxed);
                     let Some(item) = items.get(index) else { break };
                     // If `told` has panicked, there is no receiver.
-                    if sender.send((index, work(item))).is_err() {
+                    let done = if interrupt::asked() { None } else { work(item) };
+                    if sender.send((index, done)).is_err() {
                         break;
                     }
                 }
@@ -39,7 +42,9 @@ pub(super) fn in_order<Item: Sync, Done: Send>(
         for (index, done) in receiver {
             early.insert(index, done);
             while let Some(done) = early.remove(&due) {
-                told(done);
+                if let Some(done) = done {
+                    told(due, done);
+                }
                 due += 1;
             }
         }
@@ -58,11 +63,12 @@ mod tests {
             let work = |&item: &u64| {
                 // The first ones take longest.
                 std::thread::sleep(std::time::Duration::from_micros(400 / (item + 1)));
-                item * item
+                (item % 7 != 3).then_some(item * item)
             };
-            in_order(&items, threads, work, |done| told.push(done));
-            assert_eq!(told, items.iter().map(|item| item * item).collect::<Vec<_>>());
+            in_order(&items, threads, work, |index, done| told.push((index as u64, done)));
+            let done = items.iter().filter(|item| *item % 7 != 3);
+            assert_eq!(told, done.map(|item| (*item, item * item)).collect::<Vec<_>>());
         }
-        in_order(&[] as &[u64], 2, |_| (), |()| panic!("there is nothing to do"));
+        in_order(&[] as &[u64], 2, |_| Some(()), |_, ()| panic!("there is nothing to do"));
     }
 }

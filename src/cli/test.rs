@@ -10,8 +10,10 @@ use super::destination::{is_directory, takes_no_file};
 use super::find::scenes_in;
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::is_same_file;
+use super::interrupt;
 use super::junit;
 use super::load::Request;
+use super::pace::{Ended, Runner};
 use super::progress_bar::Progress;
 use super::say::{count, print_json, print_line, say};
 use super::side_by_side::{all_cores, in_order};
@@ -83,6 +85,15 @@ impl Tried {
             Self::Skipped(_) => None,
         }
     }
+
+    /// The same for the report. `None`: a Ctrl-C came first.
+    fn reported(tried: Option<&Self>) -> Result<&Trial, &'static str> {
+        match tried {
+            Some(Self::Trial(trial)) => Ok(trial),
+            Some(Self::Skipped(_)) => Err("not a scene"),
+            None => Err("interrupted"),
+        }
+    }
 }
 
 impl Test {
@@ -97,14 +108,15 @@ impl Test {
         let start = Instant::now();
         let progress = Progress::new(candidates.len() as u64, "scenes", self.quiet || self.json);
         let width = candidates.iter().map(|candidate| candidate.name.chars().count()).max().unwrap_or(0).min(60);
-        let mut results: Vec<Tried> = Vec::new();
+        let mut results: Vec<Option<Tried>> = candidates.iter().map(|_| None).collect();
         let (mut exit, mut mute) = (Exit::Good, false);
+        interrupt::arm();
         in_order(
             &candidates,
             self.threads.unwrap_or_else(all_cores),
             |candidate| self.attempt(candidate),
-            |tried| {
-                let name = &candidates[results.len()].name;
+            |index, tried| {
+                let name = &candidates[index].name;
                 // Unwritable output is reported once.
                 if !mute {
                     let written = progress.aside(|| self.tell(name, &tried, width));
@@ -114,18 +126,24 @@ impl Test {
                 if let Some(trial) = tried.trial() {
                     exit = exit.worse(trial.verdict.exit());
                 }
-                results.push(tried);
+                results[index] = Some(tried);
                 progress.step();
             },
         );
         drop(progress);
         let seconds = start.elapsed().as_secs_f64();
+        let done: Vec<&Tried> = results.iter().flatten().collect();
         if !self.json && !mute {
-            exit = exit.worse(print_line(&summary(&results, seconds)));
+            exit = exit.worse(print_line(&summary(&done, seconds)));
+        }
+        if done.len() < results.len() {
+            let all = count(results.len(), "scene", "scenes");
+            say(&format!("note: Ctrl-C ended the test after {} of {all}", done.len()));
+            exit = exit.worse(Exit::Interrupted);
         }
         if let Some(path) = &self.junit {
-            let named: Vec<junit::Named> =
-                candidates.iter().zip(&results).map(|(candidate, tried)| (&*candidate.name, tried.trial())).collect();
+            let reported = results.iter().map(|tried| Tried::reported(tried.as_ref()));
+            let named: Vec<junit::Named> = candidates.iter().map(|candidate| &*candidate.name).zip(reported).collect();
             let read = named.iter().any(|(name, trial)| {
                 let files = trial.iter().flat_map(|trial| &trial.files).map(PathBuf::as_path);
                 files.chain([Path::new(name)]).any(|file| is_same_file(file, path))
@@ -174,21 +192,30 @@ impl Test {
         Ok(candidates)
     }
 
-    fn attempt(&self, candidate: &Candidate) -> Tried {
+    /// The result of a scene; `None` if a Ctrl-C ends it.
+    fn attempt(&self, candidate: &Candidate) -> Option<Tried> {
         let name = &candidate.name;
         if candidate.found
             && let Some(other) = Source::read(Path::new(name)).ok().and_then(|source| source.other_than_scene())
         {
-            return Tried::Skipped(other);
+            return Some(Tried::Skipped(other));
         }
         let request = Request { name, json: self.json, silent: self.quiet || self.json };
-        Tried::Trial(Box::new(match request.read(&self.overrides.settings, &self.overrides.overrides()) {
+        let trial = match request.read(&self.overrides.settings, &self.overrides.overrides()) {
             Err(errors) => Trial::refused(errors),
             Ok((_, mut simulation)) => {
-                let failure = simulation.run_to_end().err();
+                interrupt::reach_into(&mut simulation);
+                let end = simulation.ticks();
+                let progress = Progress::new(end, "ticks", true);
+                let failure = match (Runner { progress, wall_clock: None }).run_to(&mut simulation, end) {
+                    Ok(()) => None,
+                    Err(Ended::Wrong(failure)) => Some(failure),
+                    Err(Ended::Interrupted) => return None,
+                };
                 Trial::of(&simulation, failure.as_ref(), self.strict.strict)
             }
-        }))
+        };
+        Some(Tried::Trial(Box::new(trial)))
     }
 
     fn tell(&self, name: &str, tried: &Tried, width: usize) -> Exit {
@@ -235,8 +262,8 @@ impl Test {
     }
 }
 
-fn summary(results: &[Tried], seconds: f64) -> String {
-    let trials: Vec<&Trial> = results.iter().filter_map(Tried::trial).collect();
+fn summary(results: &[&Tried], seconds: f64) -> String {
+    let trials: Vec<&Trial> = results.iter().filter_map(|tried| tried.trial()).collect();
     let of = |wanted: Verdict| trials.iter().filter(|trial| trial.verdict == wanted).count();
     let untested = trials.iter().filter(|trial| trial.verdict == Verdict::Good && trial.expect.is_empty()).count();
     let skipped = results.len() - trials.len();

@@ -106,3 +106,65 @@ fn ctrl_c_before_the_first_frame_says_that_nothing_is_kept() {
     assert!(said.contains("there is nothing to keep"), "{said}");
     assert_eq!(folder.names(), ["fall.ron"]);
 }
+
+/// A program gets a Ctrl-C as soon as `begun`.
+#[cfg(unix)]
+fn interrupted_once(folder: &Folder, command: &str, begun: impl Fn() -> bool) -> Output {
+    let mut child: Child =
+        folder.command(command).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().expect("the program is built");
+    let start = Instant::now();
+    while !begun() && start.elapsed() < Duration::from_secs(60) {
+        assert!(child.try_wait().expect("a child").is_none(), "it ended before");
+        std::thread::sleep(Duration::from_millis(5));
+    }
+    let sent = Command::new("kill").args(["-INT", &child.id().to_string()]).status().expect("kill is installed");
+    assert!(sent.success(), "it was still running");
+    child.wait_with_output().expect("it ends")
+}
+
+/// The runs that are done stay in the record, and no half film stays beside them.
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_sweep_with_all_runs_so_far() {
+    let folder = Folder::new("ctrl_c_sweep").with("fall.ron", fixed());
+    let command = "sweep fall.ron --vary clock.duration=0.1,5e4 --tick 0.05 --films --size 256x144 --threads 1 -o out";
+    let made = || -> Vec<String> {
+        let entries = std::fs::read_dir(folder.path("out")).into_iter().flatten();
+        let mut names: Vec<String> =
+            entries.map(|entry| entry.expect("an entry").file_name().into_string().expect("a name")).collect();
+        names.sort();
+        names
+    };
+    // The second run has begun once the record holds the first.
+    let done = || std::fs::read_to_string(folder.path("out/table.runs")).map_or(0, |text| text.lines().count());
+    let ended = interrupted_once(&folder, command, || done() == 2);
+    let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(130), "{said}");
+    assert!(said.contains("Ctrl-C ended the sweep after 1 of 2 runs. `out/table.runs` keeps them"), "{said}");
+    assert_eq!(made(), ["run_1.gif", "table.runs"]);
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_test_with_a_whole_report_of_the_scenes_so_far() {
+    let folder = Folder::new("ctrl_c_test").with("a.ron", FALL).with("b.ron", FALL.replace("1 ms", "1e-3 ns"));
+    let command = "test a.ron b.ron --threads 1 --junit report.xml";
+    let start = Instant::now();
+    let ended = interrupted_once(&folder, command, || start.elapsed() > Duration::from_secs(3));
+    let (told, said) = (String::from_utf8_lossy(&ended.stdout), String::from_utf8_lossy(&ended.stderr));
+    assert_eq!(ended.status.code(), Some(130), "{said}");
+    assert!(told.contains("1 scene in ") && said.contains("Ctrl-C ended the test after 1 of 2 scenes"), "{told}{said}");
+    let report = String::from_utf8(folder.read("report.xml")).expect("text");
+    assert!(report.contains("skipped=\"1\"") && report.contains("interrupted"), "{report}");
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_check_with_the_result_so_far() {
+    let folder = Folder::new("ctrl_c_check").with("a.ron", FALL.replace("1 ms", "1e-3 ns")).with("b.ron", FALL);
+    let start = Instant::now();
+    let ended = interrupted_once(&folder, "check --run a.ron b.ron", || start.elapsed() > Duration::from_secs(3));
+    let said = String::from_utf8_lossy(&ended.stderr).into_owned();
+    assert_eq!(ended.status.code(), Some(130), "{said}");
+    assert!(said.contains("a.ron: Ctrl-C ended the run at t = ") && !said.contains("b.ron"), "{said}");
+}

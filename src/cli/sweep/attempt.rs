@@ -5,6 +5,8 @@ use std::sync::Arc;
 
 use crate::cli::author;
 use crate::cli::flags::{OverrideFlags, StrictFlag};
+use crate::cli::interrupt;
+use crate::cli::pace::Ended;
 use crate::cli::trial::Trial;
 use crate::record::follow_camera::Follower;
 use crate::record::frame::{Cast, Frame};
@@ -14,7 +16,6 @@ use crate::scene::{SceneError, SceneErrors, Source};
 use crate::sensors::Channels;
 use crate::simulation::Recorder;
 use crate::simulation::Simulation;
-use crate::tick::Failure;
 
 /// A channel over a run, read at the frames of the film and at the end.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,21 +57,33 @@ pub(super) fn refused(source: &Source, message: String) -> Attempt {
     Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None }
 }
 
-/// Runs a scene to its end. `title` is the title of its picture, if one is wanted.
-pub(super) fn attempt(scene: &Source, flags: &OverrideFlags, strict: StrictFlag, title: Option<&str>) -> Attempt {
+/// Runs a scene to its end. `title` is the title of its picture, if one is wanted. An interrupted run has no result.
+pub(super) fn attempt(
+    scene: &Source,
+    flags: &OverrideFlags,
+    strict: StrictFlag,
+    title: Option<&str>,
+) -> Option<Attempt> {
     let mut simulation = match Simulation::load_with(scene, &flags.overrides(), author::plugin) {
         Ok(simulation) => simulation,
-        Err(errors) => return Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None },
+        Err(errors) => {
+            return Some(Attempt { trial: Trial::refused(errors), tracks: Vec::new(), card: None, picture: None });
+        }
     };
+    interrupt::reach_into(&mut simulation);
     let mut tracks = tracks_of(&simulation);
-    let failure = run(&mut simulation, &mut tracks).err();
+    let failure = match run(&mut simulation, &mut tracks) {
+        Ok(()) => None,
+        Err(Ended::Wrong(failure)) => Some(failure),
+        Err(Ended::Interrupted) => return None,
+    };
     // The end of a failed run is arbitrary.
     let picture = title.filter(|_| failure.is_none()).and_then(|title| {
         let camera = simulation.get_resource::<CameraChoice>().cloned();
         picture(&mut simulation, camera.as_ref(), title).map(|frame| (frame, camera))
     });
     let trial = Trial::of(&simulation, failure.as_ref(), strict.strict);
-    Attempt { trial, tracks, card: Some(simulation.card()), picture }
+    Some(Attempt { trial, tracks, card: Some(simulation.card()), picture })
 }
 
 fn tracks_of(simulation: &Simulation) -> Vec<Track> {
@@ -86,7 +99,7 @@ fn tracks_of(simulation: &Simulation) -> Vec<Track> {
 }
 
 /// Runs to the end, with a look at the channels at the ticks that `jostle run -o` writes.
-fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure> {
+fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Ended> {
     let every = ((simulation.frame_step() / simulation.clock().dt).round() as u64).max(1);
     loop {
         if let Some(channels) = simulation.get_resource::<Channels>() {
@@ -97,7 +110,10 @@ fn run(simulation: &mut Simulation, tracks: &mut [Track]) -> Result<(), Failure>
         if done == end {
             return Ok(());
         }
-        simulation.run_to_tick(done.saturating_add(every).min(end))?;
+        if interrupt::asked() {
+            return Err(Ended::Interrupted);
+        }
+        simulation.run_to_tick(done.saturating_add(every).min(end)).map_err(Ended::of)?;
     }
 }
 

@@ -23,6 +23,7 @@ use super::destination::Place;
 use super::film::{FilmRequest, Shot};
 use super::flags::{self, OverrideFlags, StrictFlag};
 use super::inputs::Inputs;
+use super::interrupt;
 use super::load::{self, Request};
 use super::progress_bar::Progress;
 use super::say::{count, print_json, say};
@@ -161,6 +162,15 @@ impl Sweep {
         }
         let (attempts, mut exit) = self.run_all(&source, &grid, &left, folder, sheet, &mut record);
         let seconds = start.elapsed().as_secs_f64();
+        if attempts.len() < left.len() {
+            let done = taken + attempts.len();
+            say(&format!(
+                "note: Ctrl-C ended the sweep after {done} of {}. `{}` keeps them, and the same command makes only the others",
+                count(runs.len(), "run", "runs"),
+                record.path().display()
+            ));
+            return Ok(exit.worse(Exit::Interrupted));
+        }
         if let Some(errors) = all_refused(&attempts).filter(|_| taken == 0) {
             exit = exit.worse(request.refuse_scene(errors));
         }
@@ -257,20 +267,21 @@ impl Sweep {
         let progress = Progress::new(runs.len() as u64, "runs", self.quiet || self.json);
         let mut attempts: Vec<Attempt> = Vec::new();
         let (mut exit, mut told, mut recorded) = (Exit::Good, 0, true);
+        interrupt::arm();
         in_order(
             runs,
             self.threads.unwrap_or_else(all_cores),
             |&run| match grid.scene(source, run) {
-                Err(message) => (refused(source, message), Exit::Good),
+                Err(message) => Some((refused(source, message), Exit::Good)),
                 Ok(scene) => {
                     let label = label(grid, run);
-                    let done = attempt(&scene, &self.overrides, self.strict, sheet.then_some(&*label));
+                    let done = attempt(&scene, &self.overrides, self.strict, sheet.then_some(&*label))?;
                     let film = if self.films { self.film(&scene, &label, grid, run, folder) } else { Exit::Good };
-                    (done, film)
+                    (film != Exit::Interrupted).then_some((done, film))
                 }
             },
-            |(attempt, film): (Attempt, Exit)| {
-                let run = runs[attempts.len()];
+            |index, (attempt, film): (Attempt, Exit)| {
+                let run = runs[index];
                 exit = exit.worse(attempt.trial.verdict.exit()).worse(film);
                 if matches!(attempt.trial.verdict, Verdict::Refused | Verdict::Failed) && !self.json {
                     told += 1;
@@ -330,6 +341,7 @@ impl Sweep {
             threads: Some(1),
             most_bytes: None,
             pace: false,
+            whole: true,
             silent: true,
             quiet: true,
         };

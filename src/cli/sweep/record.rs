@@ -60,6 +60,11 @@ impl Record {
         Ok(Self { path: path.to_owned(), file, rows })
     }
 
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
     /// Adds a run that has ended.
     pub fn add(&mut self, row: &Row) -> Result<(), String> {
         let told = |cause: &dyn std::fmt::Display| format!("`{}` cannot be written: {cause}", self.path.display());

@@ -42,7 +42,8 @@ fn open(path: &Path, settings: &FilmSettings, view: View) -> Opened {
         return Err(OutputError::Rate { frames_per_second: rate, allowed });
     }
     // A film with a limit of size is useless beyond it.
-    let unfinished = if settings.most_bytes.is_some() { Unfinished::Removed } else { Unfinished::Kept };
+    let useless = settings.whole || settings.most_bytes.is_some();
+    let unfinished = if useless { Unfinished::Removed } else { Unfinished::Kept };
     let file = PartFile::create(path, unfinished)?;
     let studio = Studio::new(view);
     let workers = (0..settings.threads.max(1)).map(|_| studio.easel().map(Worker::new));

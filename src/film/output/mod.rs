@@ -47,12 +47,14 @@ pub struct FilmSettings {
     pub colors: usize,
     /// A GIF that grows beyond so many bytes is given up.
     pub most_bytes: Option<u64>,
+    /// Whether nothing stays of a GIF that is dropped before its end.
+    pub whole: bool,
 }
 
 impl Default for FilmSettings {
     /// 30 frames per second by one thread, without a limit of size, in the most colours of the format.
     fn default() -> FilmSettings {
-        FilmSettings { frames_per_second: 30.0, threads: 1, live: false, colors: 255, most_bytes: None }
+        FilmSettings { frames_per_second: 30.0, threads: 1, live: false, colors: 255, most_bytes: None, whole: false }
     }
 }
 
