@@ -75,6 +75,24 @@ fn labels<S: serde::Serializer>(chain: &[Mark], serializer: S) -> Result<S::Ok, 
     serializer.collect_seq(chain.iter().map(|mark| &mark.label))
 }
 
+/// A longer word of a message is a number or a name without end. Its place shows it; paths of files stay whole.
+const LONGEST_WORD: usize = 80;
+
+/// Shortens words that are too long to be read. A quote and a comma behind them stay.
+fn clip_words(text: &mut String) {
+    let is_endless = |word: &str| word.len() > LONGEST_WORD && !word.contains(['/', '\\']);
+    if text.split(' ').any(is_endless) {
+        let short = |word: &str| {
+            let ending = word.trim_end_matches(|sign: char| !sign.is_alphanumeric()).len();
+            match is_endless(word) {
+                true => format!("{}...{}", &word[..word.floor_char_boundary(LONGEST_WORD / 2)], &word[ending..]),
+                false => word.to_owned(),
+            }
+        };
+        *text = text.split(' ').map(short).collect::<Vec<_>>().join(" ");
+    }
+}
+
 /// Shortens a text that is too long to be read.
 fn clip(text: &mut String) {
     if text.len() > LONGEST_PART {
@@ -146,6 +164,7 @@ impl SceneErrors {
         drop(lines);
         // A value of a scene may have any length, and a message may quote it.
         for error in &mut errors {
+            [&mut error.message, &mut error.label].into_iter().for_each(clip_words);
             [&mut error.path, &mut error.message, &mut error.label].into_iter().for_each(clip);
             error.help.iter_mut().for_each(clip);
         }
