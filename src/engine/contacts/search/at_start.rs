@@ -7,6 +7,7 @@ use jostle_shapes::distance;
 
 use super::{cells, hulls, lines, most_pairs};
 use crate::scene::SceneError;
+use crate::tick::pairs::Surface;
 use crate::tick::{LoadErrors, Notes, State};
 use crate::world::line::BEHIND;
 use crate::world::{Bodies, Name};
@@ -18,6 +19,8 @@ const SHARE: f64 = 0.05;
 const MOST_PAIRS: usize = 1 << 22;
 /// Pairs of atoms that are looked at, at most: a second or two are enough.
 const MOST_LOOKS: usize = 1 << 30;
+/// Pairs of a side and a corner of hulls that are looked at, at most. One takes some nanoseconds.
+const MOST_SIDES: usize = 1 << 28;
 
 /// The deepest overlap before the first tick, if it deserves a report.
 #[derive(Resource, Clone, Copy, Debug, PartialEq)]
@@ -47,6 +50,8 @@ struct Overlaps {
     atoms: usize,
     /// Whether there may be more.
     more: bool,
+    /// Pairs of a side and a corner of hulls that were looked at.
+    looks: usize,
     /// The deepest, as a share of the smaller radius: the share, the overlap in metres, and the pair.
     deepest: Option<(f64, f64, Pair)>,
 }
@@ -86,10 +91,10 @@ impl Overlaps {
         let apart = super::indices_apart(bodies);
         // Bars may cross without a corner of one inside the other.
         hulls::each_pair_of_hulls(bodies, &apart, found.most, |a, b| {
-            if found.is_full() {
+            let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);
+            if found.is_full() || !found.may_look(first.hull.corners().len() * second.hull.corners().len()) {
                 return;
             }
-            let [first, second] = [a, b].map(|hull| &bodies.hulls[hull]);
             let [pose, other] = [first, second].map(|packed| bodies.pose_with_hulls(packed.body as usize));
             let overlap = -distance(&first.hull, &pose, &second.hull, &other);
             found.add(overlap, first.half_width.min(second.half_width), Pair::Bodies(first.body, second.body));
@@ -97,13 +102,22 @@ impl Overlaps {
         if found.is_full() {
             return found;
         }
-        let complete_hulls = hulls::each_pair(bodies, 0.0, (&apart, found.most), |pair| {
-            let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
-                ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
-                ((None, body), wall) => Pair::Wall(body as u32, wall.unwrap_or_default() as u32),
-            };
-            found.add(pair.overlap(bodies), pair.size(bodies), whose);
-        });
+        // Corners beside hulls take as long as the hulls themselves.
+        let complete_hulls = found.may_look(0)
+            && hulls::each_pair(bodies, 0.0, (&apart, found.most), |pair| {
+                let sides = match pair.surface(bodies) {
+                    Surface::Hull(hull) => bodies.hulls[hull].hull.corners().len(),
+                    Surface::Wall(_) => 1,
+                };
+                if !found.may_look(sides) {
+                    return;
+                }
+                let whose = match (pair.bodies(bodies), pair.wall(bodies)) {
+                    ((Some(a), b), _) => Pair::Bodies(a.min(b) as u32, a.max(b) as u32),
+                    ((None, body), wall) => Pair::Wall(body as u32, wall.unwrap_or_default() as u32),
+                };
+                found.add(pair.overlap(bodies), pair.size(bodies), whose);
+            });
         let single = bodies.single_walls().count();
         found.more |= !complete || !complete_hulls || single > looked_at && !touching.is_empty();
         found.pairs.sort_unstable();
@@ -128,6 +142,13 @@ impl Overlaps {
         !self.is_full()
     }
 
+    /// Whether so many more looks are worth their time.
+    fn may_look(&mut self, looks: usize) -> bool {
+        self.looks = self.looks.saturating_add(looks);
+        self.more |= self.looks > MOST_SIDES;
+        self.looks <= MOST_SIDES
+    }
+
     /// Whether there are too many for a run. Others change nothing of that.
     fn is_full(&self) -> bool {
         self.atoms > self.most
@@ -137,7 +158,7 @@ impl Overlaps {
 /// Notes the overlapping pairs on the card.
 pub(super) fn note_overlaps(world: &mut World) {
     let bodies = &world.resource::<State>().bodies;
-    let Overlaps { most, pairs, atoms, more, deepest } = Overlaps::of(bodies);
+    let Overlaps { most, pairs, atoms, more, deepest, .. } = Overlaps::of(bodies);
     let Some((share, overlap, deepest)) = deepest else { return };
     if atoms > most {
         let message =
