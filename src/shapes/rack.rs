@@ -11,7 +11,7 @@ use glam::DVec2;
 use crate::error::ShapeError;
 use crate::gear::{MOST_TEETH, check_tooth};
 use crate::hull::check_count;
-use crate::shape::{Shape, polygon, positive};
+use crate::shape::{Shape, compound, polygon, positive};
 
 /// A rack of so many teeth. A [`crate::Gear`] of the same module and pressure angle rolls on it.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -65,15 +65,17 @@ impl Rack {
         }
         let end = self.pitch() * self.teeth as f64 / 2.0;
         let bottom = root - self.back;
-        let mut outline = vec![DVec2::new(-end, bottom), DVec2::new(end, bottom), DVec2::new(end, root)];
-        for tooth in (0..self.teeth).rev() {
-            let middle = self.pitch() * (tooth as f64 + 0.5) - end;
-            let corners = [(root_half, root), (tip_half, tip), (-tip_half, tip), (-root_half, root)];
-            outline.extend(corners.map(|(aside, height)| DVec2::new(middle + aside, height)));
-        }
-        outline.push(DVec2::new(-end, root));
+        let bar = [(-end, bottom), (end, bottom), (end, root), (-end, root)];
+        let tooth = |number: usize| {
+            let middle = self.pitch() * (number as f64 + 0.5) - end;
+            [(-root_half, root), (root_half, root), (tip_half, tip), (-tip_half, tip)]
+                .map(|(aside, height)| (middle + aside, height))
+        };
+        // To cut the whole outline would make slivers between all gaps and the bottom.
+        let parts = std::iter::once(bar).chain((0..self.teeth).map(tooth));
+        let parts: Result<Vec<Shape>, ShapeError> = parts.map(|part| polygon(&part.map(DVec2::from), 0.0)).collect();
         // The parameters give the points, so the author has nothing to correct in them.
-        Ok(Shape { mended: Vec::new(), ..polygon(&outline, 0.0)? })
+        Ok(Shape { mended: Vec::new(), ..compound(&parts?)? })
     }
 }
 
