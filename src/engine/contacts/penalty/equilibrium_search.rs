@@ -25,6 +25,9 @@ use crate::world::Bodies;
 /// normal force of the round before. Then each round reduces the rest by a factor.
 const ROUNDS: usize = 60;
 
+/// Rounds behind these, for islands in which friction slips to and fro. Each takes part of its step.
+const CAREFUL_ROUNDS: usize = 60;
+
 /// Products of all islands with their springs, each counted once for each spring: a quarter of a second.
 const WORK: usize = 1 << 24;
 
@@ -36,6 +39,13 @@ const BALANCED: f64 = 1e-12;
 
 /// The same if rounding of far places leaves no better balance. From round to round it does not halve any more.
 const NEARLY: f64 = 1e-7;
+
+/// A careful round that leaves more than this share of the unbalanced forces has gone too far. A spring slipped to one side, and slips
+/// back. From then on each round takes a smaller part of its step.
+const NO_BETTER: f64 = 0.9;
+
+/// The least part of a step. Sixty such steps reduce the rest to 1e-8.
+const LEAST_STEP: f64 = 0.25;
 
 /// Overlaps that differ by less than this share bear the same load.
 const SAME: f64 = 1e-9;
@@ -66,6 +76,8 @@ pub(super) struct IslandSearch {
     moves: bool,
     /// The greatest unbalanced force of the round before, as a share of all forces on its body.
     left: f64,
+    /// The share of a step that is taken.
+    step: f64,
     holds_as_placed: bool,
     pub outcome: Outcome,
 }
@@ -159,6 +171,7 @@ impl Search {
                 retries: 0,
                 moves: false,
                 left: f64::INFINITY,
+                step: 1.0,
                 holds_as_placed: false,
                 outcome: Outcome::Open,
             });
@@ -202,7 +215,7 @@ impl Search {
         let mut islands = std::mem::take(&mut self.islands);
         let joined = islands.iter().any(|island| !island.joints.is_empty());
         let least_room = state.least_room_at_start();
-        for round in 0..ROUNDS {
+        for round in 0..ROUNDS + CAREFUL_ROUNDS {
             if round > 0 {
                 state.loads_at_start(loads);
             }
@@ -210,7 +223,7 @@ impl Search {
             let mut open = false;
             for (number, island) in islands.iter_mut().enumerate().filter(|(_, island)| island.outcome == Outcome::Open)
             {
-                self.improve((number as u32, island), &mut state.bodies, pairs, (loads, &rows), round == 0);
+                self.improve((number as u32, island), &mut state.bodies, pairs, (loads, &rows), round);
                 open |= island.outcome == Outcome::Open;
             }
             if !open {
@@ -238,9 +251,10 @@ impl Search {
         bodies: &mut Bodies,
         pairs: &CandidatePairs,
         (loads, rows): (&[Twist], &[Row]),
-        first: bool,
+        round: usize,
     ) {
-        let round = if first {
+        let (first, careful) = (round == 0, round >= ROUNDS);
+        let phase = if first {
             Round::First
         } else if island.moves {
             Round::Moving
@@ -261,7 +275,7 @@ impl Search {
         let mut springs = Vec::with_capacity(parts.len());
         for part in &mut *parts {
             let geometry = part.geometry(bodies, pairs);
-            part.look(&geometry, bodies, round);
+            part.look(&geometry, bodies, phase);
             let sides = Sides::of(&geometry, &part.law, index);
             let normal = geometry.pair.normal;
             springs.push(part.springs(&sides, normal));
@@ -301,7 +315,7 @@ impl Search {
             let balanced = each().all(|(lacks, (sum, noise))| lacks <= BALANCED * sum + noise);
             balanced || left <= NEARLY && left > 0.5 * before
         };
-        let held = network(parts, false);
+        let (held, left_before) = (network(parts, false), island.left);
         let mut found = Err(Unsolved::Free);
         if !island.moves && balances(&forces, &mut island.left) && closed {
             return island.end(first, self.set_valued, bodies);
@@ -339,7 +353,11 @@ impl Search {
                 return island.end(first, self.set_valued, bodies);
             }
         }
-        let Ok(found) = found else { return island.leave(Outcome::Bound, bodies) };
+        let Ok(mut found) = found else { return island.leave(Outcome::Bound, bodies) };
+        if careful && !island.moves && island.left > NO_BETTER * left_before {
+            island.step = (island.step / 2.0).max(LEAST_STEP);
+        }
+        found.iter_mut().for_each(|twist| *twist = Twist::default().plus(*twist, island.step));
         for (part, springs) in parts.iter_mut().zip(&springs).filter(|(part, _)| part.now.closed) {
             part.stretch(springs, &found);
         }
