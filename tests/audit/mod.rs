@@ -18,6 +18,7 @@ mod first_steps;
 mod frames;
 mod friction_cones;
 mod gaps_at_zero;
+mod held_by_statics;
 mod hidden_characters;
 mod impact;
 mod indeterminate;

@@ -1,8 +1,8 @@
-//! Friction that holds several contacts of one body together, within the cones of all of them.
+//! Several contacts that hold one body together, within the bounds of all of them. Bounds are cones of friction and bands of normal forces.
 //!
-//! Rows of such friction depend on each other, so only their sum is determined. The forces nearest to the springs may be beyond the
-//! cone of one contact and far within that of another. Such a contact gives its bound, and the others bear the rest. The motion
-//! is the same. Only if the others cannot bear it does friction slip, and the bound of the last contact tells when.
+//! Rows of such contacts depend on each other, so only sums are determined. The forces nearest to the springs may be beyond the
+//! bound of one contact and far within that of another. Such a contact gives its bound, and the others bear the rest. The motion
+//! is the same. Only if the others cannot bear it does a contact let go. The bound of the last one tells when.
 
 use super::rows::Rows;
 use crate::world::Bodies;
@@ -33,82 +33,136 @@ pub enum ConePressure {
     Force(f64),
 }
 
-/// A row that gives the bound of its cone, in a direction.
-#[derive(Clone, Copy)]
-struct AtBound {
-    row: usize,
-    sign: f64,
-    cone: Cone,
+/// The bound that a row gives.
+#[derive(Clone, Copy, Debug)]
+pub(super) enum Bound {
+    /// That of its cone, with a sign.
+    Cone(f64, Cone),
+    /// An end of its band, in newtons.
+    Band(f64),
+}
+
+/// A row that gives its bound.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct AtBound {
+    pub row: usize,
+    pub bound: Bound,
+}
+
+impl AtBound {
+    /// The row without any force.
+    fn without_force(self) -> Self {
+        let bound = match self.bound {
+            Bound::Cone(sign, cone) => Bound::Cone(sign, Cone { coefficient: 0.0, ..cone }),
+            Bound::Band(_) => Bound::Band(0.0),
+        };
+        Self { bound, ..self }
+    }
+
+    /// The share of the force of row `normal` that this row gives, if it is the friction of that.
+    fn share_of(&self, normal: usize) -> Option<f64> {
+        match self.bound {
+            Bound::Cone(sign, Cone { coefficient, pressure: ConePressure::Row(row) }) if row == normal => {
+                Some(sign * coefficient)
+            }
+            _ => None,
+        }
+    }
+
+    /// The force in newtons beside those of the other rows, as far as these are known.
+    fn force(&self, force_of: impl Fn(usize) -> Option<f64>) -> Option<f64> {
+        match self.bound {
+            Bound::Band(force) => Some(force),
+            Bound::Cone(sign, Cone { coefficient, pressure }) => {
+                let pressure = match pressure {
+                    ConePressure::Row(row) => force_of(row),
+                    ConePressure::Force(force) => Some(force),
+                };
+                pressure.map(|pressure| sign * (coefficient * pressure))
+            }
+        }
+    }
 }
 
 impl Rows {
-    /// After [`Rows::solve`]: friction beyond its cone gives its bound if other rows hold its contact.
-    pub fn stay_in_cones(&mut self, bodies: &Bodies) {
+    /// After [`Rows::solve`]: a contact beyond its bounds gives its bound if other rows hold it.
+    pub fn stay_in_bounds(&mut self, bodies: &Bodies) {
         let (mut given, mut refused): (Vec<AtBound>, Vec<usize>) = (Vec::new(), Vec::new());
+        let mut nearest = Vec::new();
         while let Some(next) = self.farthest_beyond(&given, &refused) {
             if self.is_given_up() {
                 return;
             }
-            given.push(next);
+            if nearest.is_empty() {
+                nearest = (0..self.len()).map(|row| self.force(row)).collect();
+            }
             // At its bound it is nearly held anyway. Without any force it tells whether others hold it.
-            let without = Cone { coefficient: 0.0, ..next.cone };
-            let probe: Vec<AtBound> =
-                given[..given.len() - 1].iter().copied().chain([AtBound { cone: without, ..next }]).collect();
+            let probe: Vec<AtBound> = given.iter().copied().chain([next.without_force()]).collect();
             let (_, held) = self.solved_beside(&probe, bodies);
             if held {
+                given.push(next);
                 let (answer, _) = self.solved_beside(&given, bodies);
                 self.set_answer(answer);
             } else {
-                given.pop();
                 refused.push(next.row);
             }
         }
+        // One bound after the other may miss the forces that are within all.
+        if !refused.is_empty()
+            && let Some(given) = self.bounds_of_nearest(&nearest, bodies)
+            && let (answer, true) = self.solved_beside(&given, bodies)
+        {
+            self.set_answer(answer);
+        }
     }
 
-    /// The row that exceeds its cone by the greatest factor, among those not looked at yet.
+    /// The row that exceeds its bound by the greatest factor, among those not looked at yet.
     fn farthest_beyond(&self, given: &[AtBound], refused: &[usize]) -> Option<AtBound> {
         let open = |row: &usize| !refused.contains(row) && given.iter().all(|other| other.row != *row);
         let beyond = (0..self.len()).filter(open).filter_map(|row| {
-            let cone = self.row(row).cone?;
-            let (force, pressure) = (self.force(row), self.pressure(cone));
-            // A stage of a step may lie behind the moment at which a contact is let go. Forces go on smoothly there, and pull.
-            let beyond = pressure >= 0.0 && force.abs() > cone.coefficient * pressure;
-            beyond.then_some((force.abs() / (cone.coefficient * pressure), AtBound { row, sign: force.signum(), cone }))
+            let (factor, bound) = self.beyond(row)?;
+            Some((factor, AtBound { row, bound }))
         });
         beyond.reduce(|most, next| if next.0 > most.0 { next } else { most }).map(|(_, row)| row)
     }
 
-    /// The normal force in newtons beneath a cone.
-    fn pressure(&self, cone: Cone) -> f64 {
-        match cone.pressure {
+    /// The factor by which a row exceeds its bound, if it does, and that bound.
+    fn beyond(&self, index: usize) -> Option<(f64, Bound)> {
+        let (row, force) = (self.row(index), self.force(index));
+        if let Some((least, greatest)) = row.band.filter(|band| force < band.0 || force > band.1) {
+            let bound = if force < least { least } else { greatest };
+            return Some((1.0 + (force - bound).abs() / row.share.measure, Bound::Band(bound)));
+        }
+        let cone = row.cone?;
+        let pressure = match cone.pressure {
             ConePressure::Row(row) => self.force(row),
             ConePressure::Force(force) => force,
-        }
+        };
+        // A stage of a step may lie behind the moment at which a contact is let go. Forces go on smoothly there, and pull.
+        let beyond = pressure >= 0.0 && force.abs() > cone.coefficient * pressure;
+        beyond.then_some((force.abs() / (cone.coefficient * pressure), Bound::Cone(force.signum(), cone)))
     }
 
     /// The forces of all rows, of which some give their bounds, and whether the others hold those.
     fn solved_beside(&mut self, given: &[AtBound], bodies: &Bodies) -> (Vec<f64>, bool) {
         let mut others = Self::default();
-        let is_given = |row: usize| given.iter().any(|other| other.row == row);
-        let kept: Vec<usize> = (0..self.len()).filter(|row| !is_given(*row)).collect();
+        let kept: Vec<usize> = (0..self.len()).filter(|row| given.iter().all(|other| other.row != *row)).collect();
         for &index in &kept {
             let mut row = *self.row(index);
             // Friction at its bound follows the normal force.
-            for other in given.iter().filter(|other| other.cone.pressure == ConePressure::Row(index)) {
+            for (other, share) in given.iter().filter_map(|other| Some((other, other.share_of(index)?))) {
                 for (side, along) in row.sides.iter_mut().zip(&self.row(other.row).sides) {
                     if let (Some(side), Some(along)) = (side, along) {
-                        side.force += along.force * (other.sign * other.cone.coefficient);
-                        side.torque += along.torque * (other.sign * other.cone.coefficient);
+                        side.force += along.force * share;
+                        side.torque += along.torque * share;
                     }
                 }
             }
             others.add(row);
         }
-        let known: Vec<(usize, f64)> = given
-            .iter()
-            .filter(|other| matches!(other.cone.pressure, ConePressure::Force(_)))
-            .map(|other| (other.row, other.sign * other.cone.coefficient * self.pressure(other.cone)))
-            .collect();
+        let given_normal = |row: usize| given.iter().find(|other| other.row == row)?.force(|_| None);
+        let known: Vec<(usize, f64)> =
+            given.iter().filter_map(|other| Some((other.row, other.force(given_normal)?))).collect();
         let beside = |row: &super::Row| -> f64 {
             known.iter().map(|(other, force)| row.response(self.row(*other), bodies) * force).sum()
         };
@@ -124,12 +178,9 @@ impl Rows {
         let held = given.iter().all(holds);
         let mut answer = vec![0.0; self.len()];
         kept.iter().enumerate().for_each(|(index, row)| answer[*row] = others.force(index));
+        known.iter().for_each(|(row, force)| answer[*row] = *force);
         for other in given {
-            let force = match other.cone.pressure {
-                ConePressure::Row(row) => answer[row],
-                ConePressure::Force(force) => force,
-            };
-            answer[other.row] = other.sign * (other.cone.coefficient * force);
+            answer[other.row] = other.force(|row| Some(answer[row])).unwrap_or_default();
         }
         self.count(others.multiplications());
         (answer, held)
@@ -181,7 +232,7 @@ mod tests {
         for x in [-0.9, -0.3, 0.0, 0.4, 0.8] {
             for pull in [0.5, 2.0, 4.0, 4.9, -4.9] {
                 let (mut rows, bodies) = block(x, pull);
-                rows.stay_in_cones(&bodies);
+                rows.stay_in_bounds(&bodies);
                 for corner in [0, 2] {
                     let (normal, friction) = (rows.force(corner), rows.force(corner + 1));
                     assert!(friction.abs() <= 0.5 * normal + 1e-12, "{x}, {pull}: {friction} under {normal}");
@@ -197,7 +248,7 @@ mod tests {
     fn beyond_the_sum_of_all_cones_one_contact_is_beyond_its_own() {
         for pull in [5.1, 6.0, -7.0] {
             let (mut rows, bodies) = block(0.4, pull);
-            rows.stay_in_cones(&bodies);
+            rows.stay_in_bounds(&bodies);
             let beyond = |corner: usize| rows.force(corner + 1).abs() > 0.5 * rows.force(corner);
             assert!(beyond(0) || beyond(2), "{pull}");
             assert!((rows.force(1) + rows.force(3) + pull).abs() < 1e-12, "{pull}");

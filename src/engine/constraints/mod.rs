@@ -7,8 +7,9 @@
 //! | `solver.rs` | solves the same for joints, by sparse factors (`block_cholesky.rs`) |
 //! | `structure.rs` | finds the islands, blocks and borders of these rows, and keeps them while bodies are linked alike |
 //! | `borders.rs` | solves held contacts beside those factors |
-//! | `cones.rs` | keeps friction of contacts that hold together within their cones |
+//! | `cones.rs` | keeps contacts that hold together within their cones and bands |
 //! | `unheld.rs` | finds rows that others contradict |
+//! | `within_bounds.rs` | finds forces within all bounds, if there are any |
 //! | `projection.rs` | brings places and velocities back onto the constraints of joints |
 //! | `rest_solver/` | finds bounded forces that bring an island to rest within a tick, for methods from tick to tick |
 //! | `islands.rs` | groups the links that act on each other |
@@ -31,6 +32,7 @@ mod solver;
 pub mod spring_network;
 mod structure;
 mod unheld;
+mod within_bounds;
 
 pub use cones::{Cone, ConePressure, DEPENDENT, HOLDS};
 pub use dead_point::DeadPoints;

@@ -71,6 +71,8 @@ pub struct Row {
     pub yields: bool,
     /// The bound of friction, in steps with stages.
     pub cone: Option<Cone>,
+    /// The least and the greatest force in newtons of a normal that is held, in steps with stages.
+    pub band: Option<(f64, f64)>,
     /// The sign of the only force and impulse that it gives: a limit pushes, and never pulls. Zero: both signs.
     pub pushes: f64,
     /// Whether the forces on its two sides do not balance, because other joints pass the rest on to the world. Gears
@@ -94,6 +96,7 @@ impl Default for Row {
             bound: f64::INFINITY,
             yields: false,
             cone: None,
+            band: None,
             pushes: 0.0,
             grounded: false,
         }

@@ -129,7 +129,7 @@ impl State {
         self.turn_to(TickPart::Constraints);
         self.rows.solve(&self.bodies);
         if self.evaluation.mode.is_staged() {
-            self.rows.stay_in_cones(&self.bodies);
+            self.rows.stay_in_bounds(&self.bodies);
         } else {
             self.rows.give_way(&self.bodies);
         }

@@ -108,3 +108,12 @@ pub enum ContactOutcome {
         entirely: bool,
     },
 }
+
+impl ContactOutcome {
+    /// Friction along the tangent.
+    pub fn tangential(self) -> FrictionOutcome {
+        match self {
+            Self::Moves { tangential, .. } | Self::Rests { tangential, .. } => tangential,
+        }
+    }
+}

@@ -130,7 +130,8 @@ fn stage<N: NormalForce>(
     if normal_held {
         let slope = if slides { law.friction_dynamic.copysign(contact.tangential.held) } else { 0.0 };
         let twist = roller.as_ref().map_or(0.0, |roller| rolling_stages::slope(roller, contact));
-        held.add_normal(rows, geometry, law, (slope, twist), sink.bodies);
+        let band = N::SET_VALUED.then(|| N::band(law, contact.overlap, contact.normal_force));
+        held.add_normal(rows, geometry, law, (slope, twist, band), sink.bodies);
     }
     if tangent_held {
         held.add_tangent(rows, geometry, law, contact, sink.bodies);

@@ -324,6 +324,16 @@ impl Slider {
         }
     }
 
+    /// The phase in the next tick, for the friction that was found for it.
+    pub(super) fn grip_after(&self, friction: FrictionOutcome) -> Grip {
+        match (friction, self.grip) {
+            (FrictionOutcome::Holds(_), _) => Grip::Hold,
+            (FrictionOutcome::Slides(_), _) => Grip::Slide,
+            (_, Grip::Hold | Grip::Stick) => Grip::Stick,
+            (_, Grip::Slide | Grip::Slip) => Grip::Slip,
+        }
+    }
+
     /// The spring replaces a hold or a slide, as far as its energy allows. Returns the energy lost in J.
     pub fn let_go(&mut self, law: &SliderLaw) -> f64 {
         if !self.grip.is_rigid() {

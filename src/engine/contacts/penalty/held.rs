@@ -70,14 +70,14 @@ impl Held {
         self.contacts.iter().zip(indices).map(|((geometry, kind), index)| (geometry, *kind, rows.force(index)))
     }
 
-    /// Holds the normal of a contact. While the contact slips, its tangential force is `slope` times the normal one.
-    /// While its rolling spring slips, its torque is `twist` times the normal force.
+    /// Holds the normal of a contact, with a force within `band`. While the contact slips, its tangential force is `slope` times the
+    /// normal one. While its rolling spring slips, its torque is `twist` times the normal force.
     pub fn add_normal(
         &mut self,
         rows: &mut Rows,
         geometry: &PairGeometry,
         law: &PairLaw,
-        (slope, twist): (f64, f64),
+        (slope, twist, band): (f64, f64, Option<(f64, f64)>),
         bodies: &Bodies,
     ) {
         let normal = geometry.pair.normal;
@@ -94,6 +94,7 @@ impl Held {
             bodies,
         );
         row.pushes = 1.0;
+        row.band = band;
         let [a, b] = &mut row.sides;
         for (side, sign) in [(a, 1.0), (b, -1.0)] {
             side.iter_mut().for_each(|side| side.torque += sign * twist);

@@ -104,8 +104,13 @@ impl View<'_> {
             };
             if contact.mode == Mode::Hold {
                 let (least, greatest) = N::band(law, contact.overlap, contact.normal_force);
-                say(What::Lower, known(contact.normal_force - least, UNKNOWN));
-                say(What::Upper, known(greatest - contact.normal_force, UNKNOWN));
+                // A contact that gives its bound stays held: others hold it, and they tell when that ends.
+                let bound = |value: f64| {
+                    let gives = value == 0.0 && contact.normal_force > 0.0;
+                    if gives { Indicator::lasting(contact.normal_force) } else { known(value, UNKNOWN) }
+                };
+                say(What::Lower, bound(contact.normal_force - least));
+                say(What::Upper, bound(greatest - contact.normal_force));
             } else {
                 let (value, is_overlap) = N::remaining(contact.mode, contact.overlap, contact.normal_force);
                 let (slope, rounding) = if is_overlap {

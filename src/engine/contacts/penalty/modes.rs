@@ -10,6 +10,7 @@ use super::indeterminate::{self, Resting};
 use super::joined::{Joined, find_joined, joint_row};
 use super::normal::{Approach, Mode, NormalForce};
 use super::pair_law::PairLaw;
+use super::partial_slip;
 use super::rest::Rest;
 use super::rolling::{RollingContacts, twist};
 use super::search_schedule::{Found, MANY};
@@ -394,6 +395,7 @@ impl Choice<'_> {
         let holds = |contact: &RestContact| contact.tangential.phase.is_rigid() || contact.rolling.phase.is_rigid();
         let holds_beside_motion = N::SET_VALUED && island.contacts.iter().any(holds);
         island.solve((may_rest || holds_beside_motion) && affordable || tries, self.dt);
+        self.end_partial_slip(cases, island);
         let mut entirely = may_rest;
         for (case, outcome) in cases.iter().zip(island.outcomes(self.dt)) {
             match outcome {
@@ -439,6 +441,26 @@ impl Choice<'_> {
             found.tried &= !tries;
         } else {
             found.stops |= cases.len() > MANY / 8;
+        }
+    }
+
+    /// A contact that slides in the tick to come has the dynamic coefficient. It has the static one if another of the same bodies sticks.
+    fn end_partial_slip(&mut self, cases: &[ContactSides], island: &Island) {
+        let slides = |outcome: ContactOutcome| matches!(outcome.tangential(), FrictionOutcome::Slides(_));
+        if !self.contacts.laws.some_drop() || !island.outcomes(self.dt).any(slides) {
+            return;
+        }
+        let seen = cases.iter().zip(island.outcomes(self.dt)).map(|(case, outcome)| {
+            let (contact, law) = self.known(case);
+            let grip = contact.tangential.grip_after(outcome.tangential());
+            (*case, case.arms(law.shares(), contact.overlap).1, grip)
+        });
+        for index in partial_slip::all_slide(seen, self.sink.bodies) {
+            let law = self.known(&cases[index]).0.law;
+            let other = self.contacts.laws.twin(law);
+            if other < law {
+                self.contact(&cases[index]).0.law = other;
+            }
         }
     }
 

@@ -17,7 +17,7 @@ use super::switching::View;
 use crate::constraints::DEPENDENT;
 use crate::constraints::islands::IslandLink;
 use crate::contacts::CandidatePairs;
-use crate::contacts::geometry::PairGeometry;
+use crate::contacts::geometry::ContactSides;
 use crate::world::Bodies;
 use jostle_simd::BLOCK;
 
@@ -38,8 +38,9 @@ struct Link {
 }
 
 impl Link {
-    fn of(index: usize, geometry: &PairGeometry, place: DVec2, grip: Grip, bodies: &Bodies) -> Self {
-        Self { bodies: between(geometry, bodies), index, place, normal: geometry.pair.normal, grip }
+    fn of(index: usize, pair: &ContactSides, arm: DVec2, grip: Grip, bodies: &Bodies) -> Self {
+        let place = bodies.position[pair.b.body] + arm;
+        Self { bodies: between(pair, bodies), index, place, normal: pair.normal, grip }
     }
 
     /// Whether another contact of the same bodies sticks, so that this one cannot slide.
@@ -54,9 +55,9 @@ impl Link {
 pub(super) type Between = (Option<usize>, Option<usize>);
 
 /// Between which bodies a contact is.
-pub(super) fn between(geometry: &PairGeometry, bodies: &Bodies) -> Between {
+pub(super) fn between(pair: &ContactSides, bodies: &Bodies) -> Between {
     let of = |body: Option<usize>| body.filter(|body| bodies.moves[*body]);
-    let (a, b) = (of(geometry.pair.other_body()), of(Some(geometry.pair.b.body)));
+    let (a, b) = (of(pair.other_body()), of(Some(pair.b.body)));
     (a.min(b), a.max(b))
 }
 
@@ -94,12 +95,27 @@ impl PenaltyContacts {
     }
 }
 
+/// The indices of contacts that slide, with none of the same bodies that keeps them from it. Each contact of an island has its arm, and its
+/// grip in the tick to come.
+pub(super) fn all_slide(contacts: impl Iterator<Item = (ContactSides, DVec2, Grip)>, bodies: &Bodies) -> Vec<usize> {
+    let link =
+        |(index, (pair, arm, grip)): (usize, (ContactSides, DVec2, Grip))| Link::of(index, &pair, arm, grip, bodies);
+    let mut links: Vec<Link> = contacts.enumerate().map(link).collect();
+    links.sort_unstable_by_key(|link| (link.bodies, link.index));
+    let groups = links.chunk_by(|one, other| one.bodies == other.bodies);
+    let slides = |link: &&Link| link.grip == Grip::Slide;
+    groups
+        .flat_map(|group| group.iter().filter(slides).filter(|link| !group.iter().any(|other| link.is_kept_by(other))))
+        .map(|link| link.index)
+        .collect()
+}
+
 impl View<'_> {
     /// Some contacts give way now. Friction of the same bodies that holds at its bound gives way with them, to the same side. They held
     /// it so far. `gave`: their bodies, and whether their forces are positive.
     pub(super) fn give_together(&mut self, gave: &[(Between, bool)]) {
         for index in 0..if gave.is_empty() { 0 } else { self.len() } {
-            let bodies = between(&self.look(index), self.bodies);
+            let bodies = between(&self.look(index).pair, self.bodies);
             let (mut contact, law) = self.contact(index);
             let slider = law.tangential();
             let limit = slider.friction_static * contact.normal_force;
@@ -116,8 +132,8 @@ impl View<'_> {
     }
 
     /// Finds the contacts that slip beside others which stick. Says whether the friction of one that slides has changed.
-    /// `staged`: contacts are evaluated in stages of steps. Else the search for rest lets friction go that holds, for all
-    /// contacts of a body at once.
+    /// `staged`: contacts are evaluated in stages of steps. Else the search for rest ends partial slip in the same tick
+    /// ([`all_slide`]).
     pub(super) fn share_cones(&mut self, staged: bool) -> bool {
         if !self.contacts.laws.some_drop() {
             return false;
@@ -128,9 +144,8 @@ impl View<'_> {
             let (geometry, bodies) = (self.look(index), self.bodies);
             let (contact, law) = self.contact(index);
             if law.tangential().acts() {
-                let b = geometry.pair.b.body;
-                let place = bodies.position[b] + geometry.contact_arms(law.shares()).1;
-                links.push(Link::of(index, &geometry, place, contact.tangential.grip, bodies));
+                let arm = geometry.contact_arms(law.shares()).1;
+                links.push(Link::of(index, &geometry.pair, arm, contact.tangential.grip, bodies));
             }
         }
         links.sort_unstable_by_key(|link| (link.bodies, link.index));
@@ -151,8 +166,7 @@ impl View<'_> {
         let other = self.contacts.laws.twin(law);
         let is_partial = other < law;
         let may_be = match link.grip {
-            Grip::Stick => true,
-            Grip::Hold => staged,
+            Grip::Stick | Grip::Hold => true,
             Grip::Slip | Grip::Slide => is_partial,
         };
         if other == law || is_partial == (kept && may_be) {

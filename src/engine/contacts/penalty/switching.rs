@@ -187,7 +187,7 @@ impl View<'_> {
             let Some((pair, what)) = self.told(index) else { continue };
             if let What::Give(positive) = what {
                 // Rows that all but depend on each other have huge forces, and give at once. Without the first, forces change.
-                let bodies = between(&self.look(pair as usize), self.bodies);
+                let bodies = between(&self.look(pair as usize).pair, self.bodies);
                 if gave.contains(&(bodies, !positive)) {
                     continue;
                 }
