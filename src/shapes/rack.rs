@@ -87,6 +87,21 @@ mod tests {
     use crate::moments::AreaMoments;
     use crate::pose::Pose;
 
+    /// Each tooth is one part, and none reaches along the bar, so the pairs of parts that touch grow with the teeth.
+    #[test]
+    fn a_rack_has_a_part_for_each_tooth_and_one_bar() {
+        for teeth in [1, 10, 1000] {
+            let hulls = Rack::new(teeth, 0.01).shape().unwrap().hulls;
+            assert_eq!(hulls.len(), teeth + 1);
+            let pitch = Rack::new(teeth, 0.01).pitch();
+            let wide = hulls.iter().filter(|hull| {
+                let across = hull.corners().iter().map(|corner| corner.x);
+                across.clone().fold(f64::MIN, f64::max) - across.fold(f64::MAX, f64::min) > pitch
+            });
+            assert!(wide.count() <= 1);
+        }
+    }
+
     #[test]
     fn teeth_and_bar_have_the_area_of_trapezia_and_a_rectangle() {
         let rack = Rack::new(7, 0.01);

@@ -62,3 +62,22 @@ fn expressions_that_name_each_other_are_worked_out_once() {
         assert!(READINGS.load(Ordering::Relaxed) - readings <= 2);
     }
 }
+
+/// Law: the note on overlaps at the start looks at a bounded number of sides and corners, and says that it has
+/// not seen all. These gears have more than that.
+#[test]
+fn the_note_on_overlaps_says_where_it_ends() {
+    let gears: String = (0..24)
+        .map(|index| {
+            format!(
+                "(name: \"g{index}\", at: ({:?}, 0), mass: 1, shape: Gear(teeth: 600, module: 0.01)),",
+                0.1 * f64::from(index)
+            )
+        })
+        .collect();
+    let text = format!("Scene(format: 1, clock: (duration: 0.001, tick: 0.001), bodies: [{gears}])");
+    let simulation = Simulation::load_with(&Source::new("gears", text), &Overrides::default(), |_| {});
+    let simulation = simulation.unwrap_or_else(|errors| panic!("{errors}"));
+    let noted = simulation.notes().iter().any(|note| note.contains("at least") && note.contains("pairs overlap"));
+    assert!(noted, "{:?}", simulation.notes());
+}
