@@ -5,11 +5,38 @@ use glam::DVec2;
 use super::number::exact;
 use super::outline::join;
 
-/// At most this many comparisons of a name with a part of a pattern, which take a few seconds.
-const MOST_COMPARED: usize = 50_000_000;
+/// A cost of reading that all patterns of a scene share.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(crate) enum PatternCost {
+    /// Comparisons of a name with a part of a pattern. The bound takes a few seconds.
+    Comparisons,
+    /// Names that patterns stand for. A sensor takes up to a microsecond and a hundred bytes for each.
+    Names,
+}
 
-/// At most this many names that patterns stand for, in all. A sensor takes up to a microsecond and a hundred bytes for each.
-const MOST_MATCHED: usize = 2_000_000;
+impl PatternCost {
+    fn most(self) -> usize {
+        match self {
+            Self::Comparisons => 50_000_000,
+            Self::Names => 2_000_000,
+        }
+    }
+
+    /// The mistake of a scene beyond the bound, and its remedy.
+    fn told(self) -> (String, &'static str) {
+        let most = self.most();
+        match self {
+            Self::Comparisons => (
+                format!("with this one, names are compared with patterns more than {most} times"),
+                "name bodies in fewer patterns: one with `*` may stand for many",
+            ),
+            Self::Names => (
+                format!("with this one, patterns stand for more than {most} names in all"),
+                "use fewer patterns with `*`, or let them fit fewer names",
+            ),
+        }
+    }
+}
 
 /// A mistake found by a check. Its place in the text is looked up only when it is shown.
 #[derive(Clone, Debug, PartialEq)]
@@ -56,10 +83,8 @@ pub struct Diagnostics {
     scope: String,
     problems: Vec<Diagnostic>,
     notes: Vec<String>,
-    /// The work of comparing patterns with names.
-    compared: usize,
-    /// The names that patterns stand for.
-    matched: usize,
+    /// The costs of patterns so far, by [`PatternCost`].
+    patterns: [usize; 2],
 }
 
 impl Diagnostics {
@@ -93,27 +118,17 @@ impl Diagnostics {
         self.notes.push(text.into());
     }
 
-    /// Counts the comparisons of a pattern with names. If they exceed the bound, that is a mistake, which is reported
-    /// once.
-    pub(crate) fn may_compare(&mut self, path: &str, work: usize) -> bool {
-        let before = self.compared;
-        self.compared = before.saturating_add(work);
-        if self.compared > MOST_COMPARED && before <= MOST_COMPARED {
-            let message = format!("with this one, names are compared with patterns more than {MOST_COMPARED} times");
-            self.error(path, message).help("name bodies in fewer patterns: one with `*` may stand for many");
+    /// Counts a cost of a pattern. If all costs exceed the bound, that is a mistake, which is reported once. Returns whether they do not.
+    pub(crate) fn may_cost(&mut self, path: &str, cost: PatternCost, amount: usize) -> bool {
+        let (sum, most) = (&mut self.patterns[cost as usize], cost.most());
+        let before = *sum;
+        *sum = before.saturating_add(amount);
+        let within = *sum <= most;
+        if !within && before <= most {
+            let (message, help) = cost.told();
+            self.error(path, message).help(help);
         }
-        self.compared <= MOST_COMPARED
-    }
-
-    /// Counts the names that a pattern stands for. If they exceed the bound, that is a mistake, which is reported once.
-    pub(crate) fn may_match(&mut self, path: &str, names: usize) -> bool {
-        let before = self.matched;
-        self.matched = before.saturating_add(names);
-        if self.matched > MOST_MATCHED && before <= MOST_MATCHED {
-            let message = format!("with this one, patterns stand for more than {MOST_MATCHED} names in all");
-            self.error(path, message).help("use fewer patterns with `*`, or let them fit fewer names");
-        }
-        self.matched <= MOST_MATCHED
+        within
     }
 
     /// Runs checks whose paths begin at `scope`, such as `"[3]"` or `"atoms"`.

@@ -8,7 +8,7 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::diagnostics::{Diagnostic, Diagnostics};
+use super::diagnostics::{Diagnostic, Diagnostics, PatternCost};
 use super::hidden::is_hidden;
 use super::macros::Tables;
 use super::name_series::{self, Names};
@@ -257,14 +257,14 @@ impl Outline {
     /// The indices of all names that fit a pattern. If no name fits, the pattern is reported at `path`.
     pub fn require_matching(&self, kind: NameKind, pattern: &str, path: &str, report: &mut Diagnostics) -> Vec<usize> {
         let parts = pattern.matches('*').count();
-        if !report.may_compare(path, parts * self.count(kind)) {
+        if !report.may_cost(path, PatternCost::Comparisons, parts * self.count(kind)) {
             return Vec::new();
         }
         let found = self.matching(kind, pattern);
         if found.is_empty() {
             self.report_unknown(&[kind], pattern, path, report);
         }
-        if report.may_match(path, found.len()) { found } else { Vec::new() }
+        if report.may_cost(path, PatternCost::Names, found.len()) { found } else { Vec::new() }
     }
 
     fn report_unknown(&self, kinds: &[NameKind], name: &str, path: &str, report: &mut Diagnostics) {

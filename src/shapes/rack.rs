@@ -87,7 +87,7 @@ mod tests {
     use crate::moments::AreaMoments;
     use crate::pose::Pose;
 
-    /// Each tooth is one part, and none reaches along the bar, so the pairs of parts that touch grow with the teeth.
+    /// Each tooth is one part, and only the bar reaches along the rack. So the pairs of parts that touch grow with the teeth.
     #[test]
     fn a_rack_has_a_part_for_each_tooth_and_one_bar() {
         for teeth in [1, 10, 1000] {
