@@ -1,7 +1,7 @@
 //! `Contacts(of: "ball")`: how many bodies and walls touch a body or wall, `ball.contacts`. `ball.contacts.begun` counts the
 //! beginnings of such touches since the start. A pair touches as long as any of its atoms do.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 
 use bevy_app::App;
 use bevy_ecs::prelude::*;
@@ -30,7 +30,7 @@ struct Contacts {
 
 /// The number of touches that have begun, for each body or wall of the sensors.
 #[derive(Resource, Default, Serialize, Deserialize)]
-struct Begun(Vec<(Entity, u64)>);
+struct Begun(BTreeMap<Entity, u64>);
 
 /// The names of bodies, for which `*` matches, and of walls, which are named in full. Each stands once, in the order of the file.
 pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Diagnostics) -> Vec<String> {
@@ -86,23 +86,19 @@ fn find(world: &mut World, owner: &str, quantity: &str) -> Option<Channel> {
         world.init_resource::<Begun>();
         add_observer(world, count_begun.after(FindContactEvents));
     }
-    let mut begun = world.resource_mut::<Begun>();
-    let known = begun.0.iter().position(|(counted, _)| *counted == entity);
-    let index = known.unwrap_or(begun.0.len());
-    if known.is_none() {
-        begun.0.push((entity, 0));
-    }
+    world.resource_mut::<Begun>().0.entry(entity).or_default();
     let count = move |world: &World| {
-        let begun = world.get_resource::<Begun>().and_then(|begun| begun.0.get(index));
-        begun.map_or(f64::NAN, |(_, count)| *count as f64)
+        let begun = world.get_resource::<Begun>().and_then(|begun| begun.0.get(&entity));
+        begun.map_or(f64::NAN, |count| *count as f64)
     };
     Some(Channel::of_resources(format!("{owner}.{quantity}"), "", count))
 }
 
 fn count_begun(events: Res<ContactEvents>, mut begun: ResMut<Begun>) {
-    for (entity, count) in &mut begun.0 {
-        let touches = events.begun.iter().filter(|pair| pair.a == *entity || pair.b == *entity);
-        *count += touches.count() as u64;
+    for entity in events.begun.iter().flat_map(|pair| [pair.a, pair.b]) {
+        if let Some(count) = begun.0.get_mut(&entity) {
+            *count += 1;
+        }
     }
 }
 
