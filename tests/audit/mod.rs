@@ -36,6 +36,7 @@ mod pushed_boxes;
 mod ran;
 mod reading_cost;
 mod releases;
+mod rolling_resistance;
 mod short_slides;
 mod soft_contacts;
 mod springs_at_the_start;

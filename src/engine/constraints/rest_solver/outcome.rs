@@ -54,7 +54,7 @@ impl Found<'_> {
         ContactOutcome::Rests { normal, tangential, rolling, entirely: !slips && !rolls }
     }
 
-    /// Whether the normal force has one value at rest. It follows each load then, and springs are drawn along with it.
+    /// Whether the normal force has one value at rest. It follows each load then, and springs that hold are drawn along with it.
     fn is_single_valued(&self) -> bool {
         self.contact.band.0 == self.contact.band.1
     }
@@ -67,7 +67,7 @@ impl Found<'_> {
         (springs, lane): (&Springs, usize),
         drawn: &CoulombSpring,
     ) -> FrictionOutcome {
-        if !drawn.phase.is_rigid() || self.is_single_valued() {
+        if !drawn.phase.is_rigid() || drawn.phase == SpringPhase::Holds && self.is_single_valued() {
             return FrictionOutcome::Follows;
         }
         if springs.is_engaged(lane) && (springs.is_free(lane) || self.stands(row, end)) {
@@ -105,7 +105,7 @@ impl Found<'_> {
         let dry = self.contact.engaged && drawn.phase == SpringPhase::Slips && !self.is_single_valued();
         // A force along the motion has not converged.
         let yields = drawn.phase == SpringPhase::Holds && (against || !engaged);
-        let slides = drawn.phase == SpringPhase::Slides && !self.is_single_valued();
+        let slides = drawn.phase == SpringPhase::Slides;
         let friction = if slides || against && stood {
             FrictionOutcome::Slides(-velocity)
         } else if against && velocity.abs() < before.abs() {

@@ -160,7 +160,7 @@ impl Slider {
     /// `None`: no time has passed, only the normal force may be another one. A contact that slips begins to stick by
     /// moving back, never by being looked at.
     ///
-    /// `rests`: its contact is held along the normal in this tick. A slip keeps its force then. In the tick of a turn, the normal
+    /// `rests`: its contact is held in this tick by a normal force that has a band. A slip keeps its force then. In the tick of a turn, the normal
     /// force depends on the time of the turn. A spring that stuck by it would bear more than one that slips.
     #[inline(always)]
     pub fn follow(&mut self, law: &SliderLaw, displacement: Option<f64>, normal_force: f64, rests: bool) -> f64 {

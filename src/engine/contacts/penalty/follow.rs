@@ -129,7 +129,7 @@ impl<V: Lanes> Followed<V> {
             let (mut lost, mut springs) = (slipped, acts);
             if some_held || V::bits(self.slides) != 0 {
                 // A slip at rest along the normal keeps its force: see [`Slider::follow`].
-                let keeps = self.slides | (held & self.slips);
+                let keeps = if some_held { self.slides | (held & self.slips) } else { self.slides };
                 lost = V::select(keeps, self.tangential_force(law) * displacement, slipped);
                 springs = acts & !keeps;
             }

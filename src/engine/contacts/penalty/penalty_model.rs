@@ -188,7 +188,7 @@ impl<N: NormalForce> Model for Contacts<N> {
         }
         if let Some(rolling) = rolling {
             let shared = Shared { bodies, rates, ledger, evaluation, rows };
-            rolling::apply(shared, pairs, contacts, rolling);
+            rolling::apply::<N>(shared, pairs, contacts, rolling);
         }
     }
 

@@ -11,7 +11,7 @@ use glam::DVec2;
 use super::apply::{PenaltyContacts, Shared};
 use super::contact::{Contact, Losses};
 use super::coulomb::{Slider, SliderLaw};
-use super::normal::Mode;
+use super::normal::{Mode, NormalForce};
 use super::pair_law::PairLaw;
 use crate::contacts::geometry::{ContactEnd, PairGeometry};
 use crate::contacts::{AtomPair, CandidatePairs};
@@ -119,6 +119,8 @@ struct Follow<'a> {
     bodies: &'a mut Bodies,
     rates: &'a mut Rates,
     elapsed: f64,
+    /// Whether the normal force has a band at rest.
+    set_valued: bool,
     losses: Losses,
 }
 
@@ -139,7 +141,8 @@ impl Follow<'_> {
         let turn_of = |end: &ContactEnd| self.bodies.displacement(end.body).1;
         let turn = turn_of(b) - a.map_or(0.0, turn_of);
         let turn = (self.elapsed > 0.0).then_some(turn);
-        self.losses.friction += slider.follow(law, turn, contact.normal_force, contact.mode == Mode::Hold);
+        let rests = self.set_valued && contact.mode == Mode::Hold;
+        self.losses.friction += slider.follow(law, turn, contact.normal_force, rests);
         twist(self.bodies, self.rates, a, b, slider.force(law));
     }
 }
@@ -149,7 +152,7 @@ fn carried(before: &[u32], old: &[Slider]) -> Vec<Slider> {
 }
 
 /// All rolling springs follow the state, behind their contacts.
-pub(super) fn apply(
+pub(super) fn apply<N: NormalForce>(
     Shared { bodies, rates, ledger, evaluation, .. }: Shared,
     pairs: &CandidatePairs,
     contacts: &PenaltyContacts,
@@ -161,7 +164,8 @@ pub(super) fn apply(
         return;
     }
     let (mut atoms, mut surfaces) = (std::mem::take(&mut rolling.atoms), std::mem::take(&mut rolling.surfaces));
-    let mut follow = Follow { bodies, rates, elapsed: evaluation.elapsed, losses: Losses::default() };
+    let mut follow =
+        Follow { bodies, rates, elapsed: evaluation.elapsed, set_valued: N::SET_VALUED, losses: Losses::default() };
     for (index, slider) in atoms.iter_mut().enumerate() {
         let contact = contacts.atoms.get(index);
         if contacts.atoms.is_asleep(index) {
