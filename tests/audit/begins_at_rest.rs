@@ -251,3 +251,36 @@ fn rolling_resistance_changes_nothing_for_boxes() {
         }
     }
 }
+
+/// A disc lies in a groove of two walls at right angles. Its friction slips on both while it settles, and nothing but friction holds its
+/// turn. The walls begin far away, so that rounding of its places is a torque that no spring holds.
+#[test]
+fn a_disc_rests_in_a_groove_whatever_its_friction() {
+    let half = PI / 4.0;
+    for (number, friction) in [0.0, 0.1, 0.2, 0.3, 0.4, 0.5, 0.7, 0.9].into_iter().enumerate() {
+        for (degrees, radius) in [(0.0, 0.1), (0.0, 0.37), (7.0, 0.1)] {
+            let turn = degrees / 180.0 * PI;
+            let bottom = DVec2::new(0.0, -radius * 2.0_f64.sqrt());
+            let end = |angle: f64| bottom + 3.0 * DVec2::new(libm::cos(angle), libm::sin(angle));
+            let (left, right) = (end(PI - half + turn), end(half + turn));
+            // The turned groove is no longer symmetric under the disc, whose centre keeps its distance from both.
+            let at = bottom + DVec2::new(-libm::sin(turn), libm::cos(turn)) * radius * 2.0_f64.sqrt();
+            let walls = format!(
+                "walls: [(name: \"l\", left: ({:?}, {:?}), right: ({:?}, {:?}), material: \"m\"), \
+                 (name: \"r\", left: ({:?}, {:?}), right: ({:?}, {:?}), material: \"m\")]",
+                bottom.x, bottom.y, left.x, left.y, right.x, right.y, bottom.x, bottom.y
+            );
+            let things = format!(
+                "{walls}, bodies: [(name: \"d\", at: ({:?}, {:?}), mass: 1, material: \"m\", shape: Disc(radius: {radius:?}))]",
+                at.x, at.y
+            );
+            let material = format!("stiffness: 1e6, restitution: 0.1, friction: {friction:?}");
+            let (way, overrides) = &ways()[number % 3];
+            let what = format!("groove, friction {friction}, {degrees} degrees, {way}");
+            let text = scene("", &material, &things, 0.1);
+            let simulation = assert_stays(&what, &text, overrides, 1e-12);
+            let bound = simulation.notes().iter().any(|note| note.contains("reached its bound"));
+            assert!(!bound, "{what}: {:?}\n{text}", simulation.notes());
+        }
+    }
+}

@@ -99,6 +99,19 @@ impl NetworkSpring {
 /// # Errors
 /// If a force acts in a free direction, or the work does not suffice.
 pub fn solve(springs: &[NetworkSpring], forces: &[Twist], work: &mut usize) -> Result<Vec<Twist>, Unsolved> {
+    solve_beyond((0.0, 0.0), springs, forces, work)
+}
+
+/// [`solve`] with forces that rounding of places changes by `rounding`, a force in N and a torque in N m.
+///
+/// # Errors
+/// If a greater force acts in a free direction, or the work does not suffice.
+pub fn solve_beyond(
+    rounding: (f64, f64),
+    springs: &[NetworkSpring],
+    forces: &[Twist],
+    work: &mut usize,
+) -> Result<Vec<Twist>, Unsolved> {
     let count = forces.len();
     let blocks = inverse_blocks(springs, count);
     let precondition =
@@ -151,8 +164,8 @@ pub fn solve(springs: &[NetworkSpring], forces: &[Twist], work: &mut usize) -> R
     let torque = greatest(forces, angular);
     // A torque makes forces in the springs, and forces make torques: rounding of both is a share of the greater.
     let force = greatest(forces, linear).max(if reach > 0.0 { torque / reach } else { 0.0 });
-    let held =
-        greatest(&residual, linear) <= HELD * force && greatest(&residual, angular) <= HELD * torque.max(force * reach);
+    let held = greatest(&residual, linear) <= (HELD * force).max(rounding.0)
+        && greatest(&residual, angular) <= (HELD * torque.max(force * reach)).max(rounding.1);
     let finite = found.iter().all(|twist| twist.linear.is_finite() && twist.angular.is_finite());
     if held && finite { Ok(found) } else { Err(Unsolved::Free) }
 }

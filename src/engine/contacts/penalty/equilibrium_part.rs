@@ -8,7 +8,7 @@ use super::pair_law::PairLaw;
 use crate::constraints::islands::IslandLink;
 use crate::constraints::spring_network::{FREE, NetworkEnd, NetworkSpring, Twist};
 use crate::contacts::CandidatePairs;
-use crate::contacts::geometry::PairGeometry;
+use crate::contacts::geometry::{PairGeometry, SideA};
 use crate::tick::SteadySpring;
 use crate::world::Bodies;
 
@@ -173,6 +173,18 @@ impl Part {
     /// counts only if it is more than that.
     pub fn is_pressed(&self) -> bool {
         self.began > self.touch || self.began > (BEARS_NOTHING * self.touch).max(self.now.overlap)
+    }
+
+    /// Rounding of its overlap in metres, along walls too. The distance from a wall is a sum of two products, and their sizes decide.
+    pub fn rounding(&self, geometry: &PairGeometry, bodies: &Bodies) -> f64 {
+        let from_wall = match geometry.pair.a {
+            SideA::Wall(wall) => {
+                let way = place(geometry, bodies) - bodies.walls[wall as usize].point;
+                geometry.pair.normal.abs().dot(way.abs())
+            }
+            _ => 0.0,
+        };
+        self.now.noise.max(NOISE * from_wall)
     }
 
     /// Its springs, whether it touches or not.

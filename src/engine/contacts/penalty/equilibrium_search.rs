@@ -16,7 +16,7 @@ use super::equilibrium_joint::JointRow;
 use super::equilibrium_part::{Candidate, Part, Round, Sides, of_scene};
 use crate::constraints::Row;
 use crate::constraints::islands::Islands;
-use crate::constraints::spring_network::{self, NetworkSpring, Relief, Twist, Unsolved};
+use crate::constraints::spring_network::{self, NetworkSpring, Relief, Twist, Unsolved, solve_beyond};
 use crate::contacts::CandidatePairs;
 use crate::tick::{State, SteadySpring};
 use crate::world::Bodies;
@@ -273,6 +273,8 @@ impl Search {
         let index =
             |body: usize| Some(self.place[body]).filter(|place| place.0 == number).map(|place| place.1 as usize);
         let mut springs = Vec::with_capacity(parts.len());
+        // Rounding of those forces where walls begin far away.
+        let mut rounds = vec![0.0; members.len()];
         for part in &mut *parts {
             let geometry = part.geometry(bodies, pairs);
             part.look(&geometry, bodies, phase);
@@ -285,6 +287,8 @@ impl Search {
             sides.push(&mut forces, normal * part.now.normal - normal.perp() * part.now.tangential);
             sides.twist(&mut forces, part.now.rolling);
             let noise = part.now.noise * part.law.stiffness;
+            let rounding = part.rounding(&geometry, bodies) * part.law.stiffness;
+            sides.ends().for_each(|end| rounds[end] += rounding);
             let size = part.now.normal + part.now.tangential.abs();
             sides.ends().for_each(|end| sizes[end] = (sizes[end].0 + size, sizes[end].1 + noise));
         }
@@ -305,6 +309,11 @@ impl Search {
             springs.iter().chain(&rigid).chain(others).copied().collect()
         };
         let closed = joints.iter().all(JointRow::is_closed);
+        let each = sizes.iter().zip(&rounds).zip(&*members);
+        let rounding = each.fold((0.0_f64, 0.0_f64), |most, (((sum, noise), rounds), &body)| {
+            let force = BALANCED * sum + noise.max(*rounds);
+            (most.0.max(force), most.1.max(force * extent(body)))
+        });
         let lacks = |force: &Twist, body: usize| force.linear.length().max(force.angular.abs() / extent(body));
         let balances = |forces: &[Twist], left_before: &mut f64| {
             let each =
@@ -323,14 +332,14 @@ impl Search {
         joints.iter().zip(&rigid).for_each(|(joint, spring)| joint.close(spring, &mut forces));
         if !island.moves {
             // Contacts decide whether a body is held. Then springs of the scene take their share of the loads.
-            found = spring_network::solve(&with(&held, &[]), &forces, &mut self.work);
+            found = solve_beyond(rounding, &with(&held, &[]), &forces, &mut self.work);
             if found.is_ok() && !steady.is_empty() {
-                found = spring_network::solve(&with(&held, &steady), &forces, &mut self.work);
+                found = solve_beyond(rounding, &with(&held, &steady), &forces, &mut self.work);
             }
             let all = network(parts, true);
             if found == Err(Unsolved::Free) && held.len() < all.len() && island.retries < RETRIES {
                 island.retries += 1;
-                found = spring_network::solve(&with(&all, &[]), &forces, &mut self.work);
+                found = solve_beyond(rounding, &with(&all, &[]), &forces, &mut self.work);
             }
         }
         if found == Err(Unsolved::Free) {
