@@ -95,7 +95,9 @@ pub struct EstimatedError {
 /// An error that runs with other steps share, so that their difference does not tell it.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RaisedError {
-    /// As a share of how far bodies go.
+    /// In metres.
+    pub distance: f64,
+    /// As a share of how far bodies go; infinite if they stand.
     pub share: f64,
     /// Its reason: a sentence without its full stop.
     pub why: String,
@@ -119,7 +121,7 @@ impl EstimatedError {
         if raised {
             let raised = distance / motion;
             if self.raised.as_ref().is_none_or(|old| old.share < raised) {
-                self.raised = Some(RaisedError { share: raised, why: why() });
+                self.raised = Some(RaisedError { distance, share: raised, why: why() });
             }
             self.share = self.share.map(|share| share.max(raised));
         }
@@ -131,10 +133,14 @@ impl EstimatedError {
     pub fn beyond_tolerance(world: &World) -> Option<String> {
         let found = world.get_resource::<Self>()?;
         let (tolerance, raised) = world.get_resource::<KnownError>()?.tolerance.zip(found.raised.as_ref())?;
-        let RaisedError { share, why } = raised;
+        let RaisedError { distance, share, why } = raised;
         (*share > tolerance && found.elsewhere.is_none()).then(|| {
-            let (tolerance, share) = (number(tolerance), percent(*share));
-            format!("the tolerance of {tolerance} is not reached: all runs share an error of {share} of how far bodies go. {why}")
+            let tolerance = number(tolerance);
+            let size = match share.is_finite() {
+                true => format!("{} of how far bodies go", percent(*share)),
+                false => format!("{} m, and bodies stand", number(*distance)),
+            };
+            format!("the tolerance of {tolerance} is not reached: all runs share an error of {size}. {why}")
         })
     }
 
@@ -285,6 +291,8 @@ fn discretisation(
     let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.work()));
     let (mut told, mut order) = (Told::default(), expected_order(simulation));
     let (motion, mut observed) = (run.sizes().0, None);
+    // Bodies that stand on springs go less far than these give. A share of that little way is no loss of their places.
+    let gives = gives(simulation.resource());
     if effort == Effort::Full {
         observed = observed_order(simulation, run, until, scene)?;
         order = observed.unwrap_or(order).clamp(0.5, order.max(1.0));
@@ -311,22 +319,23 @@ fn discretisation(
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));
         if found.began.is_none() {
-            let began = run.first_apart(&twin, PARTED * motion / finer.left(order));
+            let began = run.first_apart(&twin, PARTED * motion.max(gives) / finer.left(order));
             found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
         }
         if until < ticks && number == 0 {
             first_twin = Some(second);
         }
-        told.add(finer, order, Seen::between(run, &twin), motion);
+        told.add(finer, order, Seen::between(run, &twin), motion.max(gives));
     }
     // Only if no twin took too long or failed: there is an estimate of the part then.
     if let Some(twin) = first_twin {
         tell_part(simulation, &twin, until, found);
     }
-    let state = simulation.resource::<State>();
-    if stands(state) {
+    if motion < gives {
+        told.share = None;
+    }
+    if stands(simulation.resource()) {
         // Bodies at rest go nowhere, so no difference is a share of their way. Springs that give make some of it.
-        let gives = state.deepest_overlap().in_meters.overlap.max(STANDS * state.bodies().smallest_radius);
         found.restless = Some(told.distance).filter(|distance| *distance > gives);
         (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);
     }
@@ -342,6 +351,12 @@ fn discretisation(
         horizon: told.horizon.or(found.known_until),
     });
     Ok(())
+}
+
+/// The way in metres by which the springs of contacts give, at least that of rounding.
+fn gives(state: &State) -> f64 {
+    let rounding = STANDS * state.bodies().smallest_radius;
+    state.deepest_overlap().in_meters.overlap.max(if rounding.is_finite() { rounding } else { 0.0 })
 }
 
 /// Notes of a run whose beginning alone was repeated, for its twin at its end.
