@@ -73,7 +73,7 @@ impl Watch for Watching {
 
     fn observe(&mut self, sight: &Sight) {
         let Some(channel) = self.channel.as_ref().filter(|_| sight.has_reached(self.from)) else { return };
-        let value = self.energy.map_or_else(|| channel.value(sight.world()), |entry| entry(&sight.energy())).abs();
+        let value = self.energy.map_or_else(|| channel.value(sight.world()), |entry| entry(sight.energy())).abs();
         if self.largest.is_none_or(|(largest, _)| value > largest || value.is_nan()) {
             self.largest = Some((value, sight.time));
         }

@@ -5,6 +5,8 @@ mod channel;
 mod inside;
 mod position;
 
+use std::cell::OnceCell;
+
 use bevy_app::App;
 use bevy_ecs::prelude::*;
 use serde::Serialize;
@@ -25,11 +27,13 @@ pub struct Sight<'a> {
     pub bodies: &'a Bodies,
     /// The time of the state in seconds.
     pub time: f64,
+    /// The energy ledger, once an expectation has asked for it.
+    energy: OnceCell<EnergyLedger>,
 }
 
 impl<'a> Sight<'a> {
     fn of(state: &'a State, world: Option<&'a World>) -> Self {
-        Self { world, state, bodies: &state.bodies, time: state.clock.time() }
+        Self { world, state, bodies: &state.bodies, time: state.clock.time(), energy: OnceCell::new() }
     }
 
     /// Whether a moment in s has come. The time of a tick is a product, so that its last digit may be below.
@@ -38,8 +42,8 @@ impl<'a> Sight<'a> {
     }
 
     /// The energy ledger.
-    pub fn energy(&self) -> EnergyLedger {
-        EnergyLedger::of(self.state)
+    pub fn energy(&self) -> &EnergyLedger {
+        self.energy.get_or_init(|| EnergyLedger::of(self.state))
     }
 
     /// The world, for channels.

@@ -11,7 +11,7 @@ use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use crate::scene::units::{Dimension, Length, Powers, Quantity};
-use crate::scene::{Diagnostics, Entry, Outline, SceneAppExt, SceneError, WrittenEntry};
+use crate::scene::{Diagnostics, Entry, NameKind, Outline, SceneAppExt, SceneError, WrittenEntry};
 use crate::tick::snapshot::{Memory, UnfitSnapshot, recall};
 use crate::tick::{AfterLoad, Dependence, Energies, LoadErrors, Model, State, SteadySpring, TickAppExt};
 use crate::world::{Bodies, Name};
@@ -29,6 +29,10 @@ struct Attraction {
     softening: Length,
 }
 
+/// The most bodies of a scene with attraction. An evaluation of all their pairs, 134 million,
+/// takes some tenths of a second. With more, a run would not end.
+const MOST_BODIES: usize = 1 << 14;
+
 /// Dimension of `G`.
 struct GravitationalConstant;
 
@@ -44,8 +48,13 @@ impl Entry for Attraction {
     const NAME: &'static str = "Attraction";
     const EXAMPLE: &'static str = "Attraction(constant: 1.0)";
 
-    fn check(&self, _: &Outline, report: &mut Diagnostics) {
+    fn check(&self, outline: &Outline, report: &mut Diagnostics) {
         report.not_negative("softening", self.softening);
+        let bodies = outline.count(NameKind::BODY);
+        if bodies > MOST_BODIES {
+            let message = format!("{bodies} bodies attract each other, at most {MOST_BODIES} can");
+            report.error("", message).help("the cost grows with the square of their number: make fewer bodies");
+        }
     }
 
     fn install(entries: Vec<WrittenEntry<Self>>, outline: &Outline, app: &mut App) {

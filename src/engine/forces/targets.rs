@@ -11,7 +11,7 @@ pub fn check_targets(of: Option<&Names>, outline: &Outline, report: &mut Diagnos
     }
 }
 
-/// All dynamic bodies, or those with given keys. Indices are looked up again when bodies come or go.
+/// All dynamic bodies, or those with given keys, in order. Indices are looked up again when bodies come or go.
 #[derive(Clone, Debug, Default)]
 pub struct Targets {
     keys: Option<Vec<u64>>,
@@ -21,7 +21,11 @@ pub struct Targets {
 
 impl Targets {
     /// The bodies with these keys; `None`: all. Fixed bodies are left out.
-    pub fn new(keys: Option<Vec<u64>>) -> Self {
+    pub fn new(mut keys: Option<Vec<u64>>) -> Self {
+        if let Some(keys) = &mut keys {
+            keys.sort_unstable();
+            keys.dedup();
+        }
         Self { keys, ..Self::default() }
     }
 
@@ -34,15 +38,16 @@ impl Targets {
 
     /// Whether the body of a key is among them.
     pub fn include(&self, key: u64) -> bool {
-        self.keys.as_ref().is_none_or(|keys| keys.contains(&key))
+        self.keys.as_ref().is_none_or(|keys| keys.binary_search(&key).is_ok())
     }
 
-    /// Places of the bodies in canonical order.
+    /// Places of the bodies in canonical order, which is that of their keys.
     pub fn indices(&mut self, bodies: &Bodies) -> impl Iterator<Item = usize> + '_ {
         if self.generation != bodies.generation {
             self.generation = bodies.generation;
-            let moved = (0..bodies.len()).filter(|&b| bodies.dynamic[b] && self.include(bodies.key.at(b)));
-            self.indices = moved.map(|b| b as u32).collect();
+            let all = 0..if self.keys.is_none() { bodies.len() } else { 0 };
+            let named = self.keys.iter().flatten().filter_map(|&key| bodies.key.find(key));
+            self.indices = all.chain(named).filter(|&b| bodies.dynamic[b]).map(|b| b as u32).collect();
         }
         self.indices.iter().map(|&index| index as usize)
     }

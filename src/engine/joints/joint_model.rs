@@ -286,8 +286,8 @@ impl Model for Joint {
         self.soft = self.setup.asked.softness.map(|softness| Soft::new(softness, &*self.law, &pair, bodies));
         self.look_at_start(world, &pair);
         let limited = self.parts.has_limits();
-        let known = KnownJoint { name: self.name.clone(), ends: self.ends.clone(), law: self.law.clone(), limited };
-        world.get_resource_or_init::<super::KnownJoints>().0.push(known);
+        let known = KnownJoint { ends: self.ends.clone(), law: self.law.clone(), limited };
+        world.get_resource_or_init::<super::KnownJoints>().0.insert(self.name.clone(), known);
     }
 
     fn add_rows(&mut self, bodies: &Bodies, _: f64, rows: &mut Rows) {

@@ -19,6 +19,7 @@ mod rope;
 pub mod soft;
 mod weld;
 
+use std::collections::BTreeMap;
 use std::sync::Arc;
 
 use bevy_app::App;
@@ -52,13 +53,11 @@ struct Closing;
 
 /// The joints of a scene by their names, once they have begun: controllers find theirs here.
 #[derive(Resource, Default)]
-pub struct KnownJoints(Vec<KnownJoint>);
+pub struct KnownJoints(BTreeMap<String, KnownJoint>);
 
 /// A joint as controllers see it.
 #[derive(Clone)]
 pub struct KnownJoint {
-    /// Its name.
-    pub name: String,
     /// Its ends.
     pub ends: JointEnds,
     /// Its law.
@@ -70,7 +69,7 @@ pub struct KnownJoint {
 impl KnownJoints {
     /// The joint of this name.
     pub fn named(&self, name: &str) -> Option<&KnownJoint> {
-        self.0.iter().find(|known| known.name == name)
+        self.0.get(name)
     }
 }
 

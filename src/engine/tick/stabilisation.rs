@@ -298,24 +298,30 @@ impl State {
         trouble.map_or(Ok(()), |trouble| Err((trouble.wrong, trouble.body)))
     }
 
-    /// Undoes full turns of bodies in the search for closed joints, if the joints allow it.
+    /// Undoes full turns of bodies in the search for closed joints. Bodies of joints that this opens keep theirs, such as those of
+    /// gears.
     fn take_back_turns(&mut self, before: &[f64]) {
         let mut rows = Rows::default();
-        let mut worst = |state: &mut Self| {
-            state.find_places(&mut rows, 0.0);
-            rows.all().iter().fold(0.0_f64, |most, row| most.max(row.gap.abs()))
-        };
-        let closed = worst(self).max(FULL_TURN);
-        for (body, before) in before.iter().enumerate() {
-            let after = self.bodies.angle[body];
-            let turns = ((after - before) / std::f64::consts::TAU).round();
-            if turns == 0.0 {
-                continue;
+        self.find_places(&mut rows, 0.0);
+        let closed = rows.all().iter().fold(FULL_TURN, |most, row| most.max(row.gap.abs()));
+        let turns = |(after, before): (&f64, &f64)| ((after - before) / std::f64::consts::TAU).round();
+        let mut turns: Vec<f64> = self.bodies.angle.iter().zip(before).map(turns).collect();
+        let found = self.bodies.angle.clone();
+        while turns.iter().any(|&turns| turns != 0.0) {
+            for (angle, (found, turns)) in self.bodies.angle.iter_mut().zip(found.iter().zip(&turns)) {
+                *angle = found - turns * std::f64::consts::TAU;
             }
-            self.bodies.angle[body] -= turns * std::f64::consts::TAU;
-            if worst(self) > closed {
-                self.bodies.angle[body] = after;
+            self.find_places(&mut rows, 0.0);
+            let mut open = rows.all().iter().filter(|row| row.gap.abs() > closed).peekable();
+            if open.peek().is_none() {
+                break;
             }
+            let sides = open.flat_map(|row| row.sides.iter().flatten());
+            let opened: Vec<usize> = sides.map(|side| side.body).filter(|&body| turns[body] != 0.0).collect();
+            if opened.is_empty() {
+                turns.fill(0.0);
+            }
+            opened.into_iter().for_each(|body| turns[body] = 0.0);
         }
         (self.bodies.posed, self.bodies.recorded) = (false, false);
     }

@@ -107,6 +107,8 @@ pub struct Materials {
     pub names: Vec<String>,
     /// The materials; the first is [`DEFAULT`], the others follow in the order of the scene.
     pub by_index: Vec<Material>,
+    /// Each name with its index.
+    by_name: BTreeMap<String, usize>,
     overrides: BTreeMap<(usize, usize), Override>,
     /// The indices of materials that give no stiffness.
     without_stiffness: BTreeSet<usize>,
@@ -123,6 +125,7 @@ impl Default for Materials {
         Self {
             names: vec![DEFAULT.into()],
             by_index: vec![Material::default()],
+            by_name: BTreeMap::from([(DEFAULT.into(), 0)]),
             overrides: BTreeMap::new(),
             without_stiffness: BTreeSet::from([0]),
         }
@@ -139,6 +142,7 @@ impl Materials {
                 all.by_index[0] = entry.material();
             } else {
                 all.names.push(name.clone());
+                all.by_name.insert(name.clone(), index);
                 all.by_index.push(entry.material());
             }
             match entry.stiffness {
@@ -174,7 +178,7 @@ impl Materials {
     }
 
     fn find(&self, name: &str) -> Option<usize> {
-        self.names.iter().position(|other| other == name)
+        self.by_name.get(name).copied()
     }
 
     /// The index of a material in `by_index`; that of the default for `None` and for unknown names.

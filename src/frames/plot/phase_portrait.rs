@@ -1,5 +1,7 @@
 //! The channel over which each curve of a phase portrait is drawn. Names are `owner.quantity`.
 
+use std::collections::BTreeSet;
+
 use jostle_language::fits;
 
 /// The channel over which `channel` is drawn. It is `x`, or with `*` in its owner the same quantity of the channel's own owner.
@@ -16,12 +18,11 @@ pub fn beside(x: &str, channel: &str) -> Option<String> {
 /// reader would take both for curves over their own.
 pub fn over_another<'a>(x: &str, channels: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
     let (owner, _) = x.split_once('.')?;
-    let own = |channel: &str| channel.split_once('.').filter(|(other, _)| *other == owner).is_some();
-    let same = |channel: &str, other: &str| {
-        channel.split_once('.').zip(other.split_once('.')).is_some_and(|((_, a), (_, b))| a == b)
-    };
-    let owned = channels.clone().filter(|channel| own(channel));
-    channels.filter(|channel| !own(channel)).find(|channel| owned.clone().any(|other| same(channel, other)))
+    let parts = |channel: &'a str| channel.split_once('.');
+    let owned: BTreeSet<&str> =
+        channels.clone().filter_map(parts).filter(|(other, _)| *other == owner).map(|(_, quantity)| quantity).collect();
+    let beside_owned = |(other, quantity): (&str, &str)| other != owner && owned.contains(quantity);
+    channels.into_iter().find(|channel| parts(channel).is_some_and(beside_owned))
 }
 
 /// The mistake of drawing `channel` over `x`, in words, and the remedy.

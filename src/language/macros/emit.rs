@@ -1,10 +1,11 @@
 //! Copies values into the made text. Expressions are evaluated, names get their prefix, and fields are overridden.
 
-use std::collections::BTreeSet;
+use std::collections::{BTreeMap, BTreeSet};
 use std::rc::Rc;
 
 use super::expansion::Buffer;
 use super::formula::Formula;
+use super::overrides::{Override, Overrides, Patch, by_field};
 use super::scope::{Failed, Filled, Value, is_quantity};
 use super::{Expander, File, Outcome, Reader, table_file};
 use crate::lexer::skip_blank;
@@ -19,6 +20,8 @@ const WORDS: [&str; 4] = ["title", "notes", "rows", "color"];
 pub(super) const WORK: usize = 128;
 /// The work of one byte of a text that may have to be evaluated. It takes as long as copying twelve bytes.
 pub(super) const WORK_OF_TEXT: usize = 12;
+/// The work of comparing a name with a pattern.
+pub(super) const WORK_OF_PATTERN: usize = 64;
 /// The work of one byte that is copied unchanged. It keeps the scene below its largest size.
 const WORK_OF_COPY: usize = 8;
 /// Depth of values in values: parameters that stand for brackets can hold each other.
@@ -46,23 +49,10 @@ pub(super) struct Place {
     pub(super) names: BTreeSet<String>,
     /// Names of the part that are prefixes of numbered names, as in `fill`.
     pub(super) numbered: BTreeSet<String>,
-    pub(super) overrides: Vec<Rc<Override>>,
+    pub(super) overrides: Overrides,
     /// The template of which this is an instance.
     pub(super) template: Option<String>,
 }
-
-/// A value for one field of an instance.
-pub(super) struct Override {
-    /// The owner of the field, without the prefix of the instance; `*` stands for any letters.
-    pub(super) target: String,
-    pub(super) fields: Vec<String>,
-    pub(super) context: Context,
-    pub(super) value: Id,
-    pub(super) used: Rc<std::cell::Cell<bool>>,
-}
-
-/// An override, and how many of its fields have been followed.
-type Patch = (Rc<Override>, usize);
 
 impl Context {
     /// The letters of a text. Also their first byte in the file, if the file holds them unchanged.
@@ -133,10 +123,16 @@ impl Expander {
     /// Copies an entry of a section whose `name` is the name of a thing.
     pub(super) fn entry(&mut self, context: &Context, out: &mut Buffer, id: Id, section: &str) -> Outcome<()> {
         let patches = match self.name_of(context, id)? {
-            Some(name) => patches_of(context, &name),
+            Some(name) => self.patches_of(context, id, &name)?,
             None => Vec::new(),
         };
         self.value(context, out, id, section, &patches, true)
+    }
+
+    fn patches_of(&mut self, context: &Context, id: Id, name: &str) -> Outcome<Vec<Patch>> {
+        let overrides = &context.place.overrides;
+        self.spend(context, id, 0, WORK_OF_PATTERN * overrides.pattern_count())?;
+        Ok(overrides.of(name))
     }
 
     /// The name that an entry declares, without the prefix. A name with a dot is that of a channel, to which the entry
@@ -163,7 +159,8 @@ impl Expander {
             }
             out.made(&quoted(&format!("{}{name}", context.place.prefix)), file.number, key, context.step);
             out.text.push_str(": ");
-            self.value(context, out, child, "", &patches_of(context, name), false)?;
+            let patches = self.patches_of(context, child, name)?;
+            self.value(context, out, child, "", &patches, false)?;
         }
         Ok(())
     }
@@ -213,11 +210,12 @@ impl Expander {
                     out.verbatim(&file, span.start..span.start + name, context.step);
                 }
                 out.verbatim(&file, open..open + 1, context.step);
+                let fields = by_field(patches);
                 for (index, &child) in tree.children(id).iter().enumerate() {
                     if index > 0 {
                         out.text.push_str(", ");
                     }
-                    self.child(context, out, child, key, patches, is_entry)?;
+                    self.child(context, out, child, key, &fields, is_entry)?;
                 }
                 self.added(context, out, id, patches)?;
                 if let Some(reader) = self.reader_of(tree.name(id, text), key, is_entry) {
@@ -239,7 +237,7 @@ impl Expander {
         out: &mut Buffer,
         child: Id,
         key: &str,
-        patches: &[Patch],
+        fields: &BTreeMap<&str, Vec<Patch>>,
         is_entry: bool,
     ) -> Outcome<()> {
         let file = Rc::clone(&context.file);
@@ -254,15 +252,11 @@ impl Expander {
         if is_entry && field == "name" && tree.node(child).form == Form::Text {
             return self.name(context, out, child);
         }
-        if patches.is_empty() {
+        if fields.is_empty() {
             return self.value(context, out, child, key, &[], false);
         }
         let label = if field.is_empty() { format!("[{}]", tree.node(child).index) } else { field.to_owned() };
-        let inner: Vec<Patch> = patches
-            .iter()
-            .filter(|(patch, depth)| patch.fields.get(*depth) == Some(&label))
-            .map(|(patch, depth)| (Rc::clone(patch), depth + 1))
-            .collect();
+        let inner = fields.get(label.as_str()).map_or(&[][..], Vec::as_slice);
         // The last one wins: it comes from farthest outside.
         match inner.iter().rfind(|(patch, depth)| patch.fields.len() == *depth) {
             Some((patch, _)) => {
@@ -270,7 +264,7 @@ impl Expander {
                 let there = Context { step: context.step, ..patch.context.clone() };
                 self.value(&there, out, patch.value, key, &[], false)
             }
-            None => self.value(context, out, child, key, &inner, false),
+            None => self.value(context, out, child, key, inner, false),
         }
     }
 
@@ -278,25 +272,27 @@ impl Expander {
     fn added(&mut self, context: &Context, out: &mut Buffer, id: Id, patches: &[Patch]) -> Outcome<()> {
         let file = Rc::clone(&context.file);
         let (tree, text) = (&file.tree, &file.source.text);
-        let has = |field: &str| {
-            let mut children = tree.children(id).iter().enumerate();
-            children.any(|(index, &child)| {
-                let key = &text[tree.key(child)];
-                key == field || key.is_empty() && field == format!("[{index}]")
-            })
+        if patches.is_empty() {
+            return Ok(());
+        }
+        let label = |(index, &child): (usize, &Id)| match &text[tree.key(child)] {
+            "" => format!("[{index}]"),
+            key => key.to_owned(),
         };
+        let present: BTreeSet<String> = tree.children(id).iter().enumerate().map(label).collect();
+        let field = |(index, (patch, depth)): (usize, &'_ Patch)| (patch.fields[*depth].clone(), index);
+        let last: BTreeMap<String, usize> = patches.iter().enumerate().map(field).collect();
         let named = tree.children(id).iter().all(|&child| !tree.key(child).is_empty());
         for (index, (patch, depth)) in patches.iter().enumerate() {
             let field = &patch.fields[*depth];
-            if has(field) {
+            if present.contains(field) {
                 continue;
             }
             if patch.fields.len() != depth + 1 || tree.node(id).form != Form::Round || !named {
                 return Err(Box::new(self.no_such_field(patch, *depth)));
             }
             patch.used.set(true);
-            let again = |(later, depth): &Patch| later.fields.get(*depth) == Some(field);
-            if patches[index + 1..].iter().any(again) {
+            if last[field] != index {
                 continue;
             }
             let there = Context { step: context.step, ..patch.context.clone() };
@@ -407,9 +403,4 @@ impl Expander {
             ));
         }
     }
-}
-
-fn patches_of(context: &Context, name: &str) -> Vec<Patch> {
-    let overrides = context.place.overrides.iter();
-    overrides.filter(|patch| fits(&patch.target, name)).map(|patch| (Rc::clone(patch), 0)).collect()
 }

@@ -4,11 +4,11 @@ use std::cell::Cell;
 use std::collections::BTreeSet;
 use std::rc::Rc;
 
-use super::emit::{Context, Override, Place, WORK};
+use super::emit::{Context, Place, WORK, WORK_OF_PATTERN};
 use super::include::Holder;
+use super::overrides::{Override, Overrides};
 use super::scope::Scope;
 use super::{Cause, Expander, Outcome};
-use crate::outline::fits;
 use crate::suggest;
 use crate::syntax::{Form, Id};
 
@@ -88,33 +88,19 @@ impl Expander {
         let inner = Context {
             scope: scopes,
             step,
-            place: place(BTreeSet::new(), BTreeSet::new(), Vec::new()),
+            place: place(BTreeSet::new(), BTreeSet::new(), Overrides::default()),
             ..template.context.clone()
         };
         self.open_params(&inner, &template)?;
-        let inherited = context.place.overrides.iter().filter_map(|patch| {
-            let target = match patch.target.split_once('/') {
-                Some((first, rest)) if fits(first, &name) => rest.to_owned(),
-                None if patch.target == "*" => patch.target.clone(),
-                _ => return None,
-            };
-            let Override { fields, context, value, used, .. } = &**patch;
-            Some(Rc::new(Override {
-                target,
-                fields: fields.clone(),
-                context: context.clone(),
-                value: *value,
-                used: Rc::clone(used),
-            }))
-        });
-        let overrides: Vec<Rc<Override>> = overrides.into_iter().chain(inherited).collect();
+        self.spend(context, id, 0, WORK_OF_PATTERN * context.place.overrides.pattern_count())?;
+        let overrides: Vec<Rc<Override>> = overrides.into_iter().chain(context.place.overrides.within(&name)).collect();
         let (names, numbered) = self.names_in(&inner, template.node);
         let known = names.clone();
-        let inner = Context { place: place(names, numbered, overrides), ..inner };
+        let inner = Context { place: place(names, numbered, Overrides::new(overrides)), ..inner };
         let made = self.sections_of(&inner, template.node, Holder::Template);
         self.scopes.truncate(scopes);
         made?;
-        let unused = inner.place.overrides[..own].iter().find(|patch| !patch.used.get());
+        let unused = inner.place.overrides.all()[..own].iter().find(|patch| !patch.used.get());
         unused.map_or(Ok(()), |patch| Err(Box::new(self.unused(patch, &called, &known))))
     }
 

@@ -15,6 +15,7 @@ mod formula;
 mod heights;
 mod include;
 mod instance;
+mod overrides;
 mod quantity;
 mod repeat;
 mod scope;
