@@ -25,6 +25,12 @@ pub fn number(value: f64) -> String {
     text.split_once('e').map_or_else(|| text.clone(), |(digits, exponent)| format!("{}e{exponent}", short(digits)))
 }
 
+/// A share as a percentage with one digit behind the point. One beyond a million has an exponent instead.
+pub fn percentage(share: f64) -> String {
+    let hundredths = 100.0 * share;
+    if hundredths.abs() < 1e6 { format!("{hundredths:.1} %") } else { format!("{hundredths:.0e} %") }
+}
+
 /// A share in words.
 pub fn percent(share: f64) -> String {
     if share == 0.0 {
@@ -57,5 +63,6 @@ mod tests {
     fn shares_are_written_with_few_digits() {
         let written = [0.0, 2e-5, 0.0123, 0.5, 12.0, 1.11e180].map(percent);
         assert_eq!(written, ["nothing", "2e-5", "1.23 %", "50 %", "1200 %", "1e182 %"]);
+        assert_eq!([0.0, 0.1234, 5e298].map(percentage), ["0.0 %", "12.3 %", "5e300 %"]);
     }
 }

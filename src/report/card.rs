@@ -23,7 +23,7 @@ use jostle_engine::tick::energy::EnergyLedger;
 use jostle_engine::tick::{Failure, State, largest_travel, stands};
 use jostle_engine::world::Name;
 use jostle_engine::world::hash::state_hash;
-use jostle_language::numbers::{number, percent};
+use jostle_language::numbers::{number, percent, percentage};
 
 /// The deepest overlap of a run.
 #[derive(Clone, Debug, Default, PartialEq, Serialize)]
@@ -40,8 +40,8 @@ pub struct LargestOverlap {
 
 impl fmt::Display for LargestOverlap {
     fn fmt(&self, f: &mut fmt::Formatter) -> fmt::Result {
-        let (meters, share, time) = (number(self.meters), self.share_of_radius * 100.0, number(self.time));
-        write!(f, "{meters} m, {share:.1} % of the smaller radius, {} at t = {time} s", self.bodies.join(" and "))
+        let (meters, share, time) = (number(self.meters), percentage(self.share_of_radius), number(self.time));
+        write!(f, "{meters} m, {share} of the smaller radius, {} at t = {time} s", self.bodies.join(" and "))
     }
 }
 
@@ -309,7 +309,7 @@ impl fmt::Display for Card {
             || "no contacts".to_owned(),
             |critical| match critical {
                 0.0 => "none is stable".to_owned(),
-                _ => format!("critical {} s, used {:.1} %", number(critical), self.tick / critical * 100.0),
+                _ => format!("critical {} s, used {}", number(critical), percentage(self.tick / critical)),
             },
         );
         row("method", format!("{}, tick {} s ({critical})", self.method, number(self.tick)))?;
@@ -358,7 +358,7 @@ impl fmt::Display for Card {
             let when = if *meters > 0.0 { format!(", `{joint}` at t = {} s", number(*time)) } else { String::new() };
             row("joint drift", format!("{meters:.1e} m at most{when}"))?;
         }
-        row("largest travel", format!("{:.1} % of the smallest radius per tick", self.largest_travel_share * 100.0))?;
+        row("largest travel", format!("{} of the smallest radius per tick", percentage(self.largest_travel_share)))?;
         if let Some(error) = &self.error {
             // The growth of chaos gives a horizon even beyond the end of the run.
             let horizon = error.horizon.filter(|horizon| *horizon < self.time);

@@ -8,6 +8,8 @@ use std::time::{Duration, Instant};
 
 use serde_json::json;
 
+use jostle_language::numbers::percentage;
+
 use crate::cli::Exit;
 use crate::cli::author;
 use crate::cli::flags::OverrideFlags;
@@ -133,7 +135,7 @@ impl Anatomy {
         row("things", &self.things);
         row("method", &card.method);
         let critical = card.critical_tick.map_or_else(String::new, |critical| {
-            format!(", {:.1} % of the critical tick of {} s", card.tick / critical * 100.0, number(rounded(critical)))
+            format!(", {} of the critical tick of {} s", percentage(card.tick / critical), number(rounded(critical)))
         });
         row("tick", &format!("{} s{critical}", number(card.tick)));
         for note in &card.notes {

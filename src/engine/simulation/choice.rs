@@ -11,7 +11,7 @@ use crate::integrate::clock_section::EventTiming;
 use crate::integrate::{Allowance, Description, Detail, Methods, StepPace};
 use crate::joints::Joint;
 use crate::record::sections::FilmSection;
-use crate::scene::SceneError;
+use crate::scene::{SceneError, exact};
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::tick::Notes;
 use crate::tick::{Clock, Holder, State};
@@ -184,7 +184,7 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
         (None, Some(tick)) => tick,
         (None, None) => {
             let (tick, why) = tick_of_the_run(world, overrides, duration)?;
-            notes.push(format!("tick {tick} s chosen: {why}"));
+            notes.push(format!("tick {} s chosen: {why}", exact(tick)));
             tick
         }
     };

@@ -291,8 +291,9 @@ fn discretisation(
     let patience = |finer: Finer| (effort != Effort::Full).then(|| Patience::of(simulation, part, finer.work()));
     let (mut told, mut order) = (Told::default(), expected_order(simulation));
     let (motion, mut observed) = (run.sizes().0, None);
+    let (gives, at_rest) = (gives(simulation.resource()), stands(simulation.resource()));
     // Bodies that stand on springs go less far than these give. A share of that little way is no loss of their places.
-    let gives = gives(simulation.resource());
+    let ways = if at_rest { motion } else { motion.max(gives) };
     if effort == Effort::Full {
         observed = observed_order(simulation, run, until, scene)?;
         order = observed.unwrap_or(order).clamp(0.5, order.max(1.0));
@@ -319,13 +320,13 @@ fn discretisation(
         }
         let run = &run.at(|time| finer.ends_with((time / simulation.clock().dt).round() as u64));
         if found.began.is_none() {
-            let began = run.first_apart(&twin, PARTED * motion.max(gives) / finer.left(order));
+            let began = run.first_apart(&twin, PARTED * ways / finer.left(order));
             found.began = began.map(|(body, time)| (simulation.name(body).to_owned(), time));
         }
         if until < ticks && number == 0 {
             first_twin = Some(second);
         }
-        told.add(finer, order, Seen::between(run, &twin), motion.max(gives));
+        told.add(finer, order, Seen::between(run, &twin), ways);
     }
     // Only if no twin took too long or failed: there is an estimate of the part then.
     if let Some(twin) = first_twin {
@@ -334,7 +335,7 @@ fn discretisation(
     if motion < gives {
         told.share = None;
     }
-    if stands(simulation.resource()) {
+    if at_rest {
         // Bodies at rest go nowhere, so no difference is a share of their way. Springs that give make some of it.
         found.restless = Some(told.distance).filter(|distance| *distance > gives);
         (told.share, told.chaotic, told.horizon, found.began) = (None, false, None, None);

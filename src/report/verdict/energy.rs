@@ -2,7 +2,7 @@
 
 use super::{Cause, Evidence, Trust, VerdictPart, near, ticks};
 use crate::Remedy;
-use jostle_language::numbers::{number, percent};
+use jostle_language::numbers::{number, percent, percentage};
 
 /// The ledger may miss this share of the energy that changed form.
 pub(crate) const UNACCOUNTED: f64 = 0.05;
@@ -24,7 +24,7 @@ pub(super) fn unaccounted(evidence: &Evidence) -> Option<Cause> {
     if error.is_nan() || error <= UNACCOUNTED {
         return None;
     }
-    let share = format!("the accounts miss {:.1} % of the energy", error * 100.0);
+    let share = format!("the accounts miss {} of the energy", percentage(error));
     if let Some(Cause { trust, what, remedy }) = near::attraction(evidence) {
         return Some(Cause { trust, what: format!("{share}. {}", crate::capital(&what)), remedy });
     }

@@ -14,7 +14,7 @@ use jostle_engine::contacts::Overlap;
 use jostle_engine::contacts::penalty::{inelasticity_of, restitution_of};
 use jostle_engine::tick::{State, index_of};
 use jostle_engine::world::{Bodies, Materials};
-use jostle_language::numbers::number;
+use jostle_language::numbers::{number, percent};
 use std::f64::consts::PI;
 
 /// From this share of a radius on, the verdict names the effects of an overlap. People measure such effects without effort.
@@ -114,7 +114,7 @@ fn known(evidence: &Evidence, deepest: &Overlap) -> Option<String> {
 
 /// A share in words, of two digits and more.
 pub(super) fn share(share: f64) -> String {
-    if share >= 0.1 { format!("{:.0} %", share * 100.0) } else { format!("{} %", number(two_digits(share * 100.0))) }
+    if share >= 0.1 { percent(share) } else { format!("{} %", number(two_digits(share * 100.0))) }
 }
 
 fn two_digits(value: f64) -> f64 {
