@@ -70,10 +70,15 @@ impl Found<'_> {
         if !drawn.phase.is_rigid() || drawn.phase == SpringPhase::Holds && self.is_single_valued() {
             return FrictionOutcome::Follows;
         }
-        if springs.is_engaged(lane) && (springs.is_free(lane) || self.stands(row, end)) {
-            return FrictionOutcome::Holds(springs.force[lane]);
+        match self.holds(row, end, (springs, lane)) {
+            true => FrictionOutcome::Holds(springs.force[lane]),
+            false => FrictionOutcome::Slides(-row.velocity(end)),
         }
-        FrictionOutcome::Slides(-row.velocity(end))
+    }
+
+    /// Whether friction along a row is below its limit, or at its limit and without motion.
+    fn holds(&self, row: &Row, end: &Sides, (springs, lane): (&Springs, usize)) -> bool {
+        springs.is_engaged(lane) && (springs.is_free(lane) || self.stands(row, end))
     }
 
     /// Whether a row has no velocity beyond rounding.
@@ -95,7 +100,7 @@ impl Found<'_> {
         drawn: &CoulombSpring,
     ) -> (FrictionOutcome, bool) {
         let (force, engaged) = (springs.force[lane], springs.is_engaged(lane));
-        if engaged && (springs.is_free(lane) || self.stands(row, end)) {
+        if self.holds(row, end, (springs, lane)) {
             return (FrictionOutcome::Holds(force), false);
         }
         let (before, velocity) = (row.velocity(begin), row.velocity(end));
