@@ -256,15 +256,26 @@ impl Outline {
 
     /// The indices of all names that fit a pattern. If no name fits, the pattern is reported at `path`.
     pub fn require_matching(&self, kind: NameKind, pattern: &str, path: &str, report: &mut Diagnostics) -> Vec<usize> {
-        let parts = pattern.matches('*').count();
-        if !report.may_cost(path, PatternCost::Comparisons, parts * self.count(kind)) {
-            return Vec::new();
-        }
-        let found = self.matching(kind, pattern);
+        let Some(found) = self.affordable(kind, pattern, path, report) else { return Vec::new() };
         if found.is_empty() {
             self.report_unknown(&[kind], pattern, path, report);
         }
-        if report.may_cost(path, PatternCost::Names, found.len()) { found } else { Vec::new() }
+        found
+    }
+
+    /// The indices of all names that fit a pattern. `None`: the patterns of the scene cost too much, which is reported once.
+    pub fn affordable(
+        &self,
+        kind: NameKind,
+        pattern: &str,
+        path: &str,
+        report: &mut Diagnostics,
+    ) -> Option<Vec<usize>> {
+        let parts = pattern.matches('*').count();
+        let may = report.may_cost(path, PatternCost::Names, 0)
+            && report.may_cost(path, PatternCost::Comparisons, parts * self.count(kind));
+        let found = may.then(|| self.matching(kind, pattern))?;
+        report.may_cost(path, PatternCost::Names, found.len()).then_some(found)
     }
 
     fn report_unknown(&self, kinds: &[NameKind], name: &str, path: &str, report: &mut Diagnostics) {

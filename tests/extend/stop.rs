@@ -1,5 +1,5 @@
 //! Promise: a user can end a run inside a tick that takes long. The run says where it ended. It is not continued or saved as if it had
-//! reached the end of the tick.
+//! reached the end of the tick. A run of many ticks ends between two of them.
 
 use std::sync::atomic::{AtomicU64, Ordering};
 
@@ -37,6 +37,30 @@ fn a_run_that_goes_on_ends_in_the_same_bits() {
     plain.run_to_end().unwrap();
     asked.run_to_end().unwrap();
     assert_eq!(plain.card().hash, asked.card().hash);
+}
+
+/// A planet with ticks that are steps: so many that they would take hours.
+const TICKS: &str = "Scene(format: 1, clock: (duration: 1e6, tick: 1e-4, method: VelocityVerlet), 
+    bodies: [(name: \"sun\", at: (0, 0), mass: 1e6, atoms: Disc(radius: 0.1)),
+             (name: \"planet\", at: (1, 0), velocity: (0, 1), mass: 1, atoms: Disc(radius: 0.01))],
+    forces: [Spring(a: \"sun\", b: \"planet\", stiffness: 3)])";
+
+static BETWEEN: AtomicU64 = AtomicU64::new(0);
+
+#[test]
+fn a_run_ends_between_ticks_on_request_and_can_be_saved() {
+    let load = || Simulation::load(&Source::new("orbit.ron", TICKS)).unwrap();
+    let mut simulation = load();
+    simulation.ask_inside_ticks(|_| BETWEEN.fetch_add(1, Ordering::Relaxed) < STEPS);
+    let failure = simulation.run_to_end().unwrap_err();
+    assert_eq!((failure.wrong, BETWEEN.load(Ordering::Relaxed)), (FailureKind::Stopped, STEPS + 1));
+    let ticks = simulation.clock().ticks;
+    assert!(ticks > STEPS && ticks < simulation.ticks() && simulation.failure().is_none(), "{ticks}");
+    assert!(simulation.snapshot().is_ok());
+    // It is in the state of a run that nobody ended.
+    let mut whole = load();
+    whole.run_to_tick(ticks).unwrap();
+    assert_eq!(simulation.bodies().position, whole.bodies().position);
 }
 
 /// Without neighbours the work of each evaluation stays the same. A step of `Reference` has 16 evaluations at most, and is

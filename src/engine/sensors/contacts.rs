@@ -36,7 +36,7 @@ struct Begun(BTreeMap<Entity, u64>);
 pub(super) fn owners(names: &Names, field: &str, outline: &Outline, report: &mut Diagnostics) -> Vec<String> {
     let mut owners: Vec<String> = Vec::new();
     for (pattern, path) in names.with_paths(field) {
-        let bodies = outline.matching(NameKind::BODY, pattern);
+        let Some(bodies) = outline.affordable(NameKind::BODY, pattern, &path, report) else { return Vec::new() };
         if bodies.is_empty() && outline.require_any(&[NameKind::WALL, NameKind::BODY], pattern, &path, report) {
             owners.push(pattern.clone());
         }

@@ -91,6 +91,8 @@ pub struct Simulation {
     film: FilmSection,
     ticks: u64,
     spent: Duration,
+    /// Ticks of the next batch, if someone may end the run.
+    batch: u64,
     failure: Option<Failure>,
     origin: Arc<Origin>,
 }
@@ -103,6 +105,9 @@ struct Origin {
 }
 
 type Plugins = Box<dyn Fn(&mut App) + Send + Sync>;
+
+/// The longest time on the wall from one question to the next whether a run goes on. A tick may take longer.
+const ASKED_AFTER: Duration = Duration::from_millis(40);
 
 /// Bodies of a scene whose reading took memory worth giving back.
 const LARGE: usize = 10_000;
@@ -179,7 +184,7 @@ impl Simulation {
         }
         let film = world.remove_resource::<FilmSection>().unwrap_or_default();
         let world = std::mem::take(app.world_mut());
-        Ok(Self { world, header, film, ticks, spent: Duration::ZERO, failure: None, origin: origin.clone() })
+        Ok(Self { world, header, film, ticks, spent: Duration::ZERO, batch: 1, failure: None, origin: origin.clone() })
     }
 
     /// A mistake of the scene that turned out after reading, with its place in the text.
@@ -293,7 +298,8 @@ impl Simulation {
     }
 
     /// From now on `goes_on` is asked at each step inside a tick, with the time in s of that step. Once it answers `false`, the
-    /// run ends there with [`FailureKind::Stopped`], and its state is that of the step. It cannot be continued.
+    /// run ends there with [`FailureKind::Stopped`], and its state is that of the step. It cannot be continued. Between ticks it is
+    /// asked every some hundredths of a second.
     pub fn ask_inside_ticks(&mut self, goes_on: fn(f64) -> bool) {
         self.world.resource_mut::<State>().bypass_change_detection().ask_inside_ticks(goes_on);
     }
@@ -316,13 +322,39 @@ impl Simulation {
             return Ok(());
         }
         let start = Instant::now();
-        let result = advance(&mut self.world, missing);
+        let result = self.advance_while_asked(missing);
         self.spent += start.elapsed();
         if self.get_resource::<State>().is_some_and(|state| state.clock.ticks == self.ticks) {
             observe_all(&mut self.world);
         }
         self.failure = result.as_ref().err().filter(|failure| failure.wrong != FailureKind::Stopped).cloned();
         result
+    }
+
+    /// Advances by so many ticks. If someone may end the run, it goes by batches and asks behind each. Their sizes follow the clock
+    /// on the wall, and change no result.
+    fn advance_while_asked(&mut self, mut missing: u64) -> Result<(), Failure> {
+        let Some(goes_on) = self.get_resource::<State>().and_then(State::asks) else {
+            return advance(&mut self.world, missing);
+        };
+        loop {
+            let (start, batch) = (Instant::now(), self.batch.min(missing));
+            advance(&mut self.world, batch)?;
+            let took = start.elapsed();
+            if took > ASKED_AFTER {
+                self.batch = (batch / 2).max(1);
+            } else if took < ASKED_AFTER / 2 && batch == self.batch {
+                self.batch = batch.saturating_mul(2);
+            }
+            missing -= batch;
+            if missing == 0 {
+                return Ok(());
+            }
+            let clock = self.clock();
+            if !goes_on(clock.time()) {
+                return Err(Failure::stopped(&clock));
+            }
+        }
     }
 
     /// Runs until the end of the scene's duration.

@@ -72,7 +72,7 @@ pub enum FailureKind {
     Contradiction,
     /// More pairs of atoms lie near each other than so many: their contacts would not fit into memory.
     Pairs(usize),
-    /// Its user has ended it inside a tick. See [`State::ask_inside_ticks`](super::State::ask_inside_ticks).
+    /// Its user has ended it. See [`State::ask_inside_ticks`](super::State::ask_inside_ticks).
     Stopped,
     /// A system has changed the length of this packed list, or put another value into it that does not fit. Bodies were read from
     /// their components again.
@@ -91,6 +91,12 @@ impl FailureKind {
 }
 
 impl Failure {
+    /// The end of a run on request, behind a tick.
+    pub(crate) fn stopped(clock: &Clock) -> Self {
+        let (body, other) = (String::new(), String::new());
+        Self { body, other, wrong: FailureKind::Stopped, tick: clock.ticks, time: clock.time() }
+    }
+
     /// A part of the world without which no tick runs is gone.
     pub(super) fn gone(name: &'static str) -> Self {
         Self { body: String::new(), other: String::new(), wrong: FailureKind::Gone(name), tick: 0, time: 0.0 }

@@ -8,9 +8,14 @@ use crate::world::finite;
 
 impl State {
     /// From now on `goes_on` is asked at each step inside a tick, with the time in s of that step. Once it answers `false`, the
-    /// run ends there with [`FailureKind::Stopped`], and cannot be continued. Without it, and from tick to tick, nothing is asked.
+    /// run ends there with [`FailureKind::Stopped`], and cannot be continued. From tick to tick it is asked between batches.
     pub fn ask_inside_ticks(&mut self, goes_on: fn(f64) -> bool) {
         self.progress.goes_on = Some(goes_on);
+    }
+
+    /// Whom to ask whether the run goes on.
+    pub(crate) fn asks(&self) -> Option<fn(f64) -> bool> {
+        self.progress.goes_on
     }
 
     /// From now on the run may take so much work more, in the unit of [`work_of_an_evaluation`]. Then it ends at the next step inside a
