@@ -307,9 +307,12 @@ impl State {
         let turns = |(after, before): (&f64, &f64)| ((after - before) / std::f64::consts::TAU).round();
         let mut turns: Vec<f64> = self.bodies.angle.iter().zip(before).map(turns).collect();
         let found = self.bodies.angle.clone();
-        while turns.iter().any(|&turns| turns != 0.0) {
+        loop {
             for (angle, (found, turns)) in self.bodies.angle.iter_mut().zip(found.iter().zip(&turns)) {
                 *angle = found - turns * std::f64::consts::TAU;
+            }
+            if turns.iter().all(|&turns| turns == 0.0) {
+                break;
             }
             self.find_places(&mut rows, 0.0);
             let mut open = rows.all().iter().filter(|row| row.gap.abs() > closed).peekable();
@@ -479,5 +482,38 @@ impl Tick<'_> {
             bodies.prescribe(begin, time);
         }
         self.state.project(time)
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::f64::consts::TAU;
+
+    use crate::Simulation;
+    use crate::scene::Source;
+    use crate::tick::State;
+
+    /// Two gears close with 1 and 2.4 turns. Undoing 1 and 2 of them would open the pair by 0.4 of a turn, and both
+    /// keep theirs. A free disc loses its turn, alone and beside them.
+    #[test]
+    fn full_turns_are_undone_unless_a_gear_needs_them() {
+        let scene = "Scene(format: 1, clock: (duration: 1, tick: 1e-3),
+            bodies: [(name: \"a\", at: (0, 0), atoms: Disc(radius: 0.1, mass: 1)),
+                (name: \"b\", at: (1, 0), atoms: Disc(radius: 0.1, mass: 1)),
+                (name: \"c\", at: (2, 0), atoms: Disc(radius: 0.1, mass: 1))],
+            joints: [Revolute(name: \"ha\", a: World, b: \"a\"), Revolute(name: \"hb\", a: World, b: \"b\"),
+                Revolute(name: \"hc\", a: World, b: \"c\"), GearPair(of: (\"ha\", \"hb\"), ratio: 2.4)])";
+        for free in [0.0, 1.0] {
+            let mut simulation = Simulation::load(&Source::new("gears.ron", scene)).unwrap_or_else(|e| panic!("{e}"));
+            let mut state = simulation.world_mut().resource_mut::<State>();
+            let before = state.bodies.angle.clone();
+            for (angle, turns) in state.bodies.angle.iter_mut().zip([1.0, 2.4, free]) {
+                *angle += turns * TAU;
+            }
+            let found = state.bodies.angle.clone();
+            state.take_back_turns(&before);
+            assert_eq!(state.bodies.angle[..2], found[..2]);
+            assert!((state.bodies.angle[2] - before[2]).abs() < 1e-12, "{:?}", state.bodies.angle);
+        }
     }
 }
