@@ -278,7 +278,7 @@ fn a_disc_rests_in_a_groove_whatever_its_friction() {
             let (way, overrides) = &ways()[number % 3];
             let what = format!("groove, friction {friction}, {degrees} degrees, {way}");
             let text = scene("", &material, &things, 0.1);
-            let simulation = assert_stays(&what, &text, overrides, 1e-12);
+            let simulation = assert_stays(&what, &text, overrides, 0.0);
             let bound = simulation.notes().iter().any(|note| note.contains("reached its bound"));
             assert!(!bound, "{what}: {:?}\n{text}", simulation.notes());
         }

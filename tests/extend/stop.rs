@@ -57,7 +57,7 @@ fn a_run_ends_between_ticks_on_request_and_can_be_saved() {
     let ticks = simulation.clock().ticks;
     assert!(ticks > STEPS && ticks < simulation.ticks() && simulation.failure().is_none(), "{ticks}");
     assert!(simulation.snapshot().is_ok());
-    // It is in the state of a run that nobody ended.
+    // Its state is that of a whole run at this tick.
     let mut whole = load();
     whole.run_to_tick(ticks).unwrap();
     assert_eq!(simulation.bodies().position, whole.bodies().position);

@@ -91,7 +91,7 @@ pub struct Simulation {
     film: FilmSection,
     ticks: u64,
     spent: Duration,
-    /// Ticks of the next batch, if someone may end the run.
+    /// Ticks of the next batch, if a user may end the run.
     batch: u64,
     failure: Option<Failure>,
     origin: Arc<Origin>,
@@ -106,7 +106,8 @@ struct Origin {
 
 type Plugins = Box<dyn Fn(&mut App) + Send + Sync>;
 
-/// The longest time on the wall from one question to the next whether a run goes on. A tick may take longer.
+/// The time on the wall between two questions whether a run goes on. Users notice a wait from a tenth of a second on. A tick may
+/// take longer.
 const ASKED_AFTER: Duration = Duration::from_millis(40);
 
 /// Bodies of a scene whose reading took memory worth giving back.
@@ -331,7 +332,7 @@ impl Simulation {
         result
     }
 
-    /// Advances by so many ticks. If someone may end the run, it goes by batches and asks behind each. Their sizes follow the clock
+    /// Advances by so many ticks. If a user may end the run, it goes by batches and asks behind each. Their sizes follow the clock
     /// on the wall, and change no result.
     fn advance_while_asked(&mut self, mut missing: u64) -> Result<(), Failure> {
         let Some(goes_on) = self.get_resource::<State>().and_then(State::asks) else {

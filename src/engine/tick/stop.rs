@@ -13,7 +13,7 @@ impl State {
         self.progress.goes_on = Some(goes_on);
     }
 
-    /// Whom to ask whether the run goes on.
+    /// The question whether the run goes on, if a user may end it.
     pub(crate) fn asks(&self) -> Option<fn(f64) -> bool> {
         self.progress.goes_on
     }

@@ -39,7 +39,9 @@ impl Overrides {
         for (index, patch) in all.iter().enumerate() {
             if patch.target.contains('*') {
                 overrides.patterns.push(index);
-            } else if let Some((first, _)) = patch.target.split_once('/') {
+                continue;
+            }
+            if let Some((first, _)) = patch.target.split_once('/') {
                 overrides.by_first.entry(first.to_owned()).or_default().push(index);
             }
             overrides.by_target.entry(patch.target.clone()).or_default().push(index);
@@ -79,7 +81,6 @@ impl Overrides {
     fn among(&self, table: &BTreeMap<String, Vec<usize>>, name: &str) -> impl Iterator<Item = &Rc<Override>> {
         let mut meant: Vec<usize> = table.get(name).into_iter().chain([&self.patterns]).flatten().copied().collect();
         meant.sort_unstable();
-        meant.dedup();
         meant.into_iter().map(|index| &self.all[index])
     }
 }
