@@ -64,6 +64,10 @@ impl Watch for Watching {
             return;
         }
         let bodies = sight.bodies;
+        // Bodies that are asleep stand, and a speed of zero is no faster than those seen before.
+        if self.fastest.is_some() && bodies.all_asleep() {
+            return;
+        }
         for index in indices(bodies, &self.keys) {
             let speed = bodies.velocity[index].length() + bodies.spin[index].abs() * bodies.extent(index);
             if self.fastest.is_none_or(|(fastest, _)| speed > fastest || speed.is_nan()) {

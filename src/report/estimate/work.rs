@@ -16,8 +16,11 @@ const WHOLE: f64 = 2.5e6;
 /// The work of reading a scene: for each atom, each body, and each force or other model. Scenes with 48 000 bodies were measured.
 const READING: [f64; 3] = [14.0, 20.0, 46.0];
 
-/// A finer run may take so many times the expected evaluations.
-const EXCESS: f64 = 4.0;
+/// A finer run may take so many times the expected evaluations. Runs that locate events take as many, unless events crowd. Few of
+/// these are then located, and the run is of no use.
+const EXCESS: f64 = 1.5;
+/// ... and this much work more: short runs vary. It is about a tenth of a second.
+const SLACK: f64 = 2e5;
 /// A finer run may take so many seconds, and this share of the time of the first run. That holds if systems of users give forces,
 /// whose work has no count.
 const SECONDS: f64 = 5.0;
@@ -74,7 +77,7 @@ impl Patience {
         let seconds = SECONDS + SHARE_OF_TIME * first.seconds_spent();
         let time = first.state().has_force_systems().then(|| Duration::from_secs_f64(seconds));
         let expected = finer * part * evaluations(first);
-        let evaluations = EXCESS * (expected + FREE / per_evaluation(first));
+        let evaluations = EXCESS * expected + SLACK / per_evaluation(first);
         let work = evaluations * per_evaluation(first);
         Self { evaluations, work, expected, time }
     }
