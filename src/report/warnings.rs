@@ -8,18 +8,15 @@ use super::estimate::EstimatedError;
 use jostle_engine::integrate::ChosenMethod;
 use jostle_engine::simulation::Plan;
 use jostle_engine::simulation::error::KnownError;
-use jostle_engine::tick::{EvaluationMode, State, TimeScales, far_travel, largest_travel};
+use jostle_engine::tick::{EvaluationMode, FEWEST_TICKS_OF_CONTACT, State, TimeScales, far_travel, largest_travel};
 use jostle_language::numbers::number;
-
-/// Contacts that last fewer ticks are not resolved.
-pub(super) const FEWEST_TICKS: f64 = 10.0;
 
 /// Whether bodies have rested on each other from the start on. No contact began, and no body went far in a tick. An impact of few
 /// ticks reaches its overlap within them, so its body goes far.
 pub(super) fn only_rests(world: &World) -> bool {
     let state = world.resource::<State>();
     let deepest = told_overlap(world, |deepest| deepest.in_meters).meters;
-    !state.time_scales().some_began && largest_travel(state) * FEWEST_TICKS < deepest
+    !state.time_scales().some_began && largest_travel(state) * FEWEST_TICKS_OF_CONTACT < deepest
 }
 
 /// The warnings of a run, one sentence each with body, time, likely cause and remedy.
@@ -68,13 +65,14 @@ pub(super) fn warnings(world: &World, remedy: Option<Remedy>) -> Vec<String> {
         ));
     }
     // If the tick is above the critical one, this warning is superfluous.
-    let brief = time_scales.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS);
+    let brief =
+        time_scales.briefest.filter(|brief| beyond.is_none() && brief.duration() / clock.dt < FEWEST_TICKS_OF_CONTACT);
     let brief = brief.filter(|_| !only_rests(world));
     if let Some(brief) = brief {
         let ticks = brief.duration() / clock.dt;
         warnings.push(format!(
             "the contact of `{}` and `{}` at t = {} s lasts {ticks:.1} ticks. The run does not resolve an impact of fewer than \
-             {FEWEST_TICKS}{advice}",
+             {FEWEST_TICKS_OF_CONTACT}{advice}",
             name(brief.between.0),
             name(brief.between.1),
             number(brief.time),

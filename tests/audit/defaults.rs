@@ -104,3 +104,77 @@ fn what_the_scene_lacks_is_not_blamed() {
     let why = simulation.card().why.unwrap_or_default();
     assert!(!why.contains("drag takes"), "{why}");
 }
+
+/// A heap of 120 grains in a box, with every default but the law of contacts and the stiffness.
+fn heap(law: &str, stiffness: f64) -> String {
+    format!(
+        "Scene(format: 1, clock: (duration: 1.5), contacts: {law}, gravity: (0, -9.81),
+            materials: {{ \"grain\": (stiffness: {stiffness:?}, friction: 0.4, restitution: 0.1) }},
+            walls: [(name: \"floor\", left: (3, 0), right: (0, 0), material: \"grain\"),
+                    (name: \"left\", left: (0, 0), right: (0, 1), material: \"grain\"),
+                    (name: \"right\", left: (3, 1), right: (3, 0), material: \"grain\")],
+            bodies: [Repeat(count: (12, 10), make: (name: \"grain_{{i}}_{{j}}\", material: \"grain\", atoms: Disc(radius: 0.1, mass: 1),
+                at: (\"0.13 + 0.249 * i + 0.004 * mod(7 * i + 3 * j, 5)\", \"0.15 + 0.23 * j\")))])"
+    )
+}
+
+/// Promise: heaps take ticks that suit their statistics. At ticks eight times finer they lie as high to 2 %. The account misses less
+/// than a hundredth of the loss, and the card calls no impact unresolved. Not tested: other statistics, such as slopes of heaps.
+#[test]
+fn the_tick_of_a_heap_keeps_its_statistics() {
+    let text = heap("Penalty()", 1e6);
+    let coarse = end(&text, &Overrides::default());
+    let finer = Overrides { tick: Some(coarse.clock().dt / 8.0), ..Overrides::default() };
+    let fine = end(&text, &finer);
+    let height =
+        |simulation: &Simulation| simulation.bodies().position.iter().map(|place| place.y).sum::<f64>() / 120.0;
+    let (coarse_height, fine_height) = (height(&coarse), height(&fine));
+    assert!((coarse_height / fine_height - 1.0).abs() < 0.02, "{coarse_height} m high, for {fine_height} m");
+    let card = coarse.card();
+    assert!(card.energy_error() < 1e-2, "{card}");
+    let contact = std::f64::consts::PI * (0.5_f64 / (0.5 * 1e6)).sqrt();
+    assert!(contact > 7.0 * card.tick && contact < 20.0 * card.tick, "{contact} s in ticks of {} s", card.tick);
+    let notes = coarse.notes().join("; ");
+    assert!(!notes.contains("does not resolve") && notes.contains("at least 7 of them"), "{notes}");
+}
+
+/// Forces that depend on velocities take finer ticks, as the manual says.
+#[test]
+fn heaps_with_dampers_take_finer_ticks() {
+    let [springs, dampers] = ["Penalty()", "Penalty(normal: Dashpot)"].map(|law| {
+        let overrides = Overrides { duration: Some(0.01), ..Overrides::default() };
+        end(&heap(law, 1e6), &overrides)
+    });
+    assert!(dampers.clock().dt < 0.5 * springs.clock().dt, "{} {}", dampers.clock().dt, springs.clock().dt);
+    assert!(dampers.notes().join("; ").contains("at least 20 of them"), "{:?}", dampers.notes());
+}
+
+/// Law: a chain that swings keeps its energy. Its end lashes, and steps follow that.
+#[test]
+fn a_chain_of_many_links_keeps_its_energy() {
+    let text = "Scene(format: 1, clock: (duration: 2), gravity: (0, -9.81), materials: { \"m\": (density: 100) },
+        bodies: [Repeat(count: 100, make: (name: \"link_{i}\", shape: Rectangle(width: 0.1, height: 0.02), material: \"m\",
+            collides: false, at: (\"0.05 + 0.1 * i\", 0)))],
+        joints: [Revolute(name: \"top\", a: World, anchor_a: (0, 0), anchor_b: (-0.05, 0), b: \"link_0\"),
+            Repeat(count: 99, make: Revolute(name: \"h_{i}\", a: \"link_{i}\", anchor_a: (0.05, 0), anchor_b: (-0.05, 0),
+                b: \"link_{i + 1}\"))])";
+    let card = end(text, &Overrides::default()).card();
+    assert_eq!(card.method, "Dop853", "{card}");
+    assert!(card.energy_error() < 1e-5, "{card}");
+}
+
+/// Only materials in use count for the default stiffness: a default material that no body has changes nothing.
+#[test]
+fn the_default_stiffness_heeds_the_materials_in_use() {
+    let stiffness = |default: &str| {
+        let text = format!(
+            "Scene(format: 1, clock: (duration: 0.01), gravity: (0, -9.81), materials: {{ \"m\": (restitution: 0){default} }},
+                walls: [(name: \"floor\", left: (1, 0), right: (-1, 0), material: \"m\")],
+                bodies: [(name: \"a\", at: (0, 1), material: \"m\", atoms: Disc(radius: 0.1, mass: 1)),
+                         (name: \"b\", at: (0, 2), material: \"m\", atoms: Disc(radius: 0.1, mass: 1))])"
+        );
+        let notes = end(&text, &Overrides::default()).notes().to_vec();
+        notes.into_iter().find(|note| note.starts_with("stiffness ")).expect("the card tells the stiffness")
+    };
+    assert_eq!(stiffness(""), stiffness(", \"default\": (restitution: 0)"));
+}

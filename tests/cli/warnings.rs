@@ -14,7 +14,7 @@ const BOUNCE: &str = r#"Scene(
 )"#;
 
 const BRIEF: &str = "the contact of `floor` and `ball` at t = 0.205 s lasts 6.3 ticks. The run does not resolve an impact of \
-                     fewer than 10. Use --tick ";
+                     fewer than 7. Use --tick ";
 const ABOVE: &str = "the tick of 0.025 s is above the critical one of 0.02 s. The contacts of `ball` set it at t = ";
 const FAR: &str = "`ball` travelled 1.12 times the smallest radius in the tick before t = 0.25 s. It may have passed through \
                    others unseen. Use --tick ";

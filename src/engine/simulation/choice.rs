@@ -14,14 +14,22 @@ use crate::record::sections::FilmSection;
 use crate::scene::{SceneError, exact};
 use crate::simulation::error::{ErrorEstimate, ErrorParts, KnownError};
 use crate::tick::Notes;
-use crate::tick::{Clock, Holder, State};
+use crate::tick::{Clock, Dependence, FEWEST_TICKS_OF_CONTACT, Holder, State};
+use jostle_language::numbers::number;
 
 /// Ticks per half period of the fastest contact or spring if the engine chooses the tick. Errors of impacts are then
 /// some thousandths.
 const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 /// The same for contacts among many bodies. No tick can predict such paths, because they diverge exponentially. Their
-/// statistics tolerate errors of impacts of a hundredth.
-const TICKS_PER_CONTACT_IN_A_CROWD: f64 = 20.0;
+/// statistics tolerate the errors of impacts that are only just resolved.
+///
+/// The ticks are stable with the many contacts of a packed body. Each of the bodies of mass `m` may have `n` contacts of stiffness `k`.
+/// Then `omega^2` is at most `2 n k/m` (Gershgorin), and `2 k/m` for a pair. Velocity Verlet is stable up to `omega dt = 2`, so for `n`
+/// up to `(2 * 7/pi)^2 = 19`. Equal discs have six.
+const TICKS_PER_CONTACT_IN_A_CROWD: f64 = FEWEST_TICKS_OF_CONTACT;
+/// The same where forces of contacts depend on velocities. Velocity Verlet takes these with the velocity before the kick. Its error
+/// in what they take up is of the first order in the tick.
+const TICKS_PER_DAMPED_CONTACT: f64 = 20.0;
 /// Bodies that move by forces from which on they are a crowd.
 const CROWD: usize = 100;
 /// First digits of chosen ticks. Those for many bodies are finer steps, and still divide the frames of common films.
@@ -34,6 +42,8 @@ const MANY_TICKS: f64 = 1e5;
 /// The error that a step may make as a share of the motion, where the engine chooses method and steps. Some ten
 /// thousand swings then stay right to a millionth. Steps are a third shorter than with ten times that error.
 const CHOSEN_SHARE: f64 = 1e-10;
+/// The same for many bodies on joints, whose paths no method predicts for long. Steps are three times as long.
+const CHOSEN_SHARE_IN_A_CROWD: f64 = 1e-6;
 /// More ticks than a user can wait for, and still counted exactly.
 const MOST_TICKS: f64 = 1e15;
 /// Ticks per frame where frames do not fall on ticks: states between ticks are interpolated.
@@ -196,11 +206,14 @@ fn plain(world: &World, clock: &ClockSection, overrides: &Overrides, duration: f
     let mut pace = StepPace::Even(1);
     if method == ClockSection::AUTO {
         let free = given.is_none() && clock.events != EventTiming::PerTick && is_smooth(world);
-        let (name, why) = if free { OF_SMOOTH_MOTION } else { chosen_method(world) };
+        let (name, why) = match free {
+            true => ("Dop853", of_smooth_motion(world)),
+            false => chosen_method(world),
+        };
         notes.push(format!("method {name} chosen: {why}"));
         method = name.to_owned();
         if free {
-            pace = StepPace::Allowed(Allowance::new(CHOSEN_SHARE, duration));
+            pace = StepPace::Allowed(Allowance::new(chosen_share(world), duration));
         }
     }
     let (detail, events) = (Detail::default(), clock.events);
@@ -217,31 +230,52 @@ fn tick_of_the_run(world: &World, overrides: &Overrides, duration: f64) -> Resul
     Ok((tick.min(duration), why))
 }
 
-/// Method and reason where motion is smooth.
-const OF_SMOOTH_MOTION: (&str, &str) = (
-    "Dop853",
-    "order 8 with steps as long as an error of 1e-10 of the motion allows, because no bodies touch and no force changes with time",
-);
+/// The error that a step may make as a share of the motion, where motion is smooth.
+fn chosen_share(world: &World) -> f64 {
+    if is_crowd(world.resource()) { CHOSEN_SHARE_IN_A_CROWD } else { CHOSEN_SHARE }
+}
+
+/// The reason for the method where motion is smooth.
+fn of_smooth_motion(world: &World) -> String {
+    format!(
+        "order 8 with steps as long as an error of {} of the motion allows, because no bodies touch and no force changes with time",
+        number(chosen_share(world))
+    )
+}
 
 /// Whether forces change as smoothly as poses do. Then long steps of high order need the fewest evaluations for any
-/// error. Bodies that may touch, drives, controllers and prescribed motions ask for ticks. In a crowd the nearest two
-/// bodies would determine the steps of all.
+/// error. Bodies that may touch, drives, controllers and prescribed motions ask for ticks. In a crowd without joints the nearest
+/// two bodies would determine the steps of all. Joints make all bodies of a chain move in one time scale.
 fn is_smooth(world: &World) -> bool {
     let state = world.resource::<State>();
     let touch = state.contact_law().is_some();
     let driven = state.has_edges() || state.fastest_rhythm() > 0.0 || !state.bodies().prescribed.motions.is_empty();
-    !touch && !driven && state.force_systems == 0 && state.changing_forces() && !is_crowd(state)
+    let joined = state.models_of::<Joint>().next().is_some();
+    !touch && !driven && state.force_systems == 0 && state.changing_forces() && (joined || !is_crowd(state))
 }
 
 /// Whether so many bodies move by forces that no tick can predict their paths.
-fn is_crowd(state: &State) -> bool {
+pub(super) fn is_crowd(state: &State) -> bool {
     state.bodies().dynamic.iter().filter(|dynamic| **dynamic).count() >= CROWD
 }
 
+/// Ticks per contact among many bodies, and the reason.
+fn of_a_crowd(state: &State) -> (f64, &'static str) {
+    let mut laws = state.models().filter(|model| state.law_of(*model).is_some());
+    if laws.any(|law| law.dependence() == Dependence::Velocity) {
+        let why = "the stiffest contact lasts at least 20 of them, because its force depends on velocities. That suits the statistics of \
+                   many bodies. A shorter `--tick` foretells paths for longer";
+        return (TICKS_PER_DAMPED_CONTACT, why);
+    }
+    let why = "the stiffest contact lasts at least 7 of them, which suits the statistics of many bodies. A shorter `--tick` foretells \
+               paths for longer and loses less energy";
+    (TICKS_PER_CONTACT_IN_A_CROWD, why)
+}
+
 /// The method that suits the scene, and the reason.
-fn chosen_method(world: &World) -> (&'static str, &'static str) {
+fn chosen_method(world: &World) -> (&'static str, String) {
     let state = world.resource::<State>();
-    if state.contact_law().is_some() {
+    let (name, why) = if state.contact_law().is_some() {
         ("VelocityVerlet", "order 2 at one evaluation per tick, and contacts take many ticks")
     } else if !state.changing_forces() {
         ("VelocityVerlet", "accelerations do not change, so that it is exact")
@@ -249,7 +283,8 @@ fn chosen_method(world: &World) -> (&'static str, &'static str) {
         ("RungeKutta4", "order 4, and some force depends on velocities or time")
     } else {
         ("Symplectic4", "order 4 and symplectic, and all forces follow from positions alone")
-    }
+    };
+    (name, why.to_owned())
 }
 
 /// The first plan for a goal: trials make it better.
@@ -394,15 +429,14 @@ fn positive(flag: &str, value: f64) -> Result<f64, Wrong> {
     }
 }
 
-/// Forty ticks per half period of the fastest response, or twenty for contacts among many bodies. The tick is rounded
+/// Forty ticks per half period of the fastest response, or fewer for contacts among many bodies. The tick is rounded
 /// down to few digits.
 fn chosen_tick(world: &World) -> Result<(f64, &'static str), Box<SceneError>> {
     let coarsest = (COARSEST_TICK, "the scene has no contacts, springs or drives that ask for a finer one");
     let state = world.resource::<State>();
     let (in_contact, digits, contact) = if is_crowd(state) {
-        let why = "the stiffest contact lasts at least 20 of them, which suits the statistics of many bodies. A shorter `--tick` \
-        foretells paths for longer";
-        (TICKS_PER_CONTACT_IN_A_CROWD, &DIGITS_IN_A_CROWD[..], why)
+        let (ticks, why) = of_a_crowd(state);
+        (ticks, &DIGITS_IN_A_CROWD[..], why)
     } else {
         (TICKS_PER_HALF_PERIOD, &DIGITS[..], "the stiffest contact lasts at least 40 of them")
     };

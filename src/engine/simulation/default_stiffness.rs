@@ -16,22 +16,28 @@
 //!
 //! The scene at its start does not tell the work of motors and forces. The verdict tells if overlaps become large.
 
+use std::collections::BTreeSet;
 use std::f64::consts::PI;
 
 use bevy_ecs::prelude::*;
 use glam::DVec2;
 
+use super::choice::is_crowd;
 use crate::contacts::penalty::{inelasticity_of, restitution_of};
 use crate::integrate::ClockSection;
 use crate::joints::Joint;
 use crate::tick::{State, rebuild};
 use crate::world::material::LEAST_STIFFNESS;
-use crate::world::{Bodies, Materials, Name, PackedWall, atom};
+use crate::world::{Bodies, MaterialIndex, Materials, Name, PackedWall, atom};
 use jostle_language::numbers::number;
 
 /// Overlaps to expect, as a share of the smallest radius. It is a hundredth of a diameter, as in simulations of grains
 /// (Cleary and Sawley, *Applied Mathematical Modelling* 26, 2002). Twice the speeds foreseen still give less than a verdict mentions.
 const DEEPEST: f64 = 0.02;
+
+/// The same among many bodies, from where on a verdict mentions overlaps. The speeds foreseen are those of a fall from the top of a
+/// heap to its bottom. Few bodies reach them.
+const DEEPEST_IN_A_CROWD: f64 = 0.05;
 
 /// A contact that lasts so many ticks is resolved to about a hundredth.
 const TICKS: f64 = 20.0;
@@ -107,7 +113,7 @@ fn note(world: &World, stiffness: f64, wanted: f64, cause: &Cause) -> String {
     let name = world.get::<Name>(entity).map_or_else(|| "(unnamed)".to_owned(), Name::to_string);
     let [mass, speed, load] = [mass, speed, load].map(|value| number(two_digits(value)));
     // An overlap falls with the root of the stiffness in impacts, and with the stiffness itself at rest.
-    let share = number(two_digits(100.0 * DEEPEST * (wanted / stiffness).sqrt()));
+    let share = number(two_digits(100.0 * deepest(world.resource()) * (wanted / stiffness).sqrt()));
     let with = format!("{mass} kg at up to {speed} m/s and a load of {load} N");
     if stiffness < wanted {
         return format!(
@@ -130,6 +136,8 @@ struct Expected {
     lowest: Option<f64>,
     /// The result of [`held`].
     held: Option<(f64, f64)>,
+    /// The overlaps that are allowed, as a share of the smallest radius.
+    deepest: f64,
 }
 
 impl Expected {
@@ -138,10 +146,11 @@ impl Expected {
         let (bodies, gravity) = (state.bodies(), state.gravity());
         let up = -gravity.normalize_or_zero();
         let units = units(state, up);
-        let rebounds = world.get_resource::<Materials>().into_iter().flat_map(Materials::rebounds);
+        let used = materials_of(bodies);
+        let rebounds = world.get_resource::<Materials>().into_iter().flat_map(|materials| materials.rebounds_of(&used));
         let restitution = rebounds.map(|rebound| restitution_of(inelasticity_of(rebound))).fold(0.0, f64::max);
         let lowest = lowest_of_half_planes(bodies, up).or_else(|| lowest_thing(bodies, &units, up));
-        Self { units, gravity: gravity.length(), restitution, lowest, held: held(bodies) }
+        Self { units, gravity: gravity.length(), restitution, lowest, held: held(bodies), deepest: deepest(state) }
     }
 
     /// The square of the speed in m/s that a unit gains in the longest fall.
@@ -168,7 +177,7 @@ impl Expected {
             let on_other =
                 other.map(|(mass, fastest)| (unit.mass * mass / (unit.mass + mass), speed + fastest, unit.size, 2.0));
             for (mass, speed, size, springs) in [Some(on_wall), on_held, on_other].into_iter().flatten() {
-                let deepest = DEEPEST * size;
+                let deepest = self.deepest * size;
                 let energy = springs * mass * speed * speed + most_springs * 2.0 * load * deepest;
                 let stiffness = rounded_up(energy / (deepest * deepest));
                 if stiffness > most && stiffness.is_finite() {
@@ -178,6 +187,17 @@ impl Expected {
         }
         (most, cause)
     }
+}
+
+fn deepest(state: &State) -> f64 {
+    if is_crowd(state) { DEEPEST_IN_A_CROWD } else { DEEPEST }
+}
+
+/// The materials of all that may touch.
+fn materials_of(bodies: &Bodies) -> BTreeSet<MaterialIndex> {
+    let touching = (0..bodies.len()).filter(|&body| bodies.collides[body]);
+    let of_atoms = touching.flat_map(|body| bodies.atoms_of(body)).map(|atom| bodies.atom_material(atom));
+    of_atoms.chain(bodies.walls.iter().map(|wall| wall.material)).collect()
 }
 
 /// The greatest two of a list of numbers.

@@ -101,7 +101,7 @@ pub use progress::{LocatedEvents, StepCount};
 pub(crate) use registered::systems_of_users;
 use registered::{SystemKind, register};
 pub use stabilisation::{FromOutside, JointDrift, Noted};
-pub use stability::{Briefest, Fastest, Foreseen, Holder, Stability, TimeScales};
+pub use stability::{Briefest, FEWEST_TICKS_OF_CONTACT, Fastest, Foreseen, Holder, Stability, TimeScales};
 pub use state::State;
 pub use steady::{SteadySpring, SteadySprings};
 pub use step::{energy_seen, set_method};

@@ -98,6 +98,10 @@ pub struct Fastest {
     pub time: f64,
 }
 
+/// Contacts that last fewer ticks are not resolved. Under velocity Verlet half a swing of `n` ticks errs by `(pi/n)^2/24` of its time. That is
+/// less than a hundredth from seven ticks on (Hairer, Lubich and Wanner, *Acta Numerica* 12, 2003).
+pub const FEWEST_TICKS_OF_CONTACT: f64 = 7.0;
+
 /// The contact that lasts the shortest.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Briefest {

@@ -211,6 +211,14 @@ impl Materials {
         own.chain(self.overrides.values().filter_map(|pair| pair.rebound))
     }
 
+    /// The rebounds of some materials, and of pairs of these that have one.
+    pub fn rebounds_of(&self, used: &BTreeSet<MaterialIndex>) -> impl Iterator<Item = Rebound> + '_ {
+        let used: BTreeSet<usize> = used.iter().map(|index| index.0 as usize).collect();
+        let own = self.by_index.iter().enumerate().map(|(index, material)| ((index, index), material.rebound));
+        let of_pairs = self.overrides.iter().filter_map(|(pair, one)| Some((*pair, one.rebound?)));
+        own.chain(of_pairs).filter(move |((a, b), _)| used.contains(a) && used.contains(b)).map(|(_, rebound)| rebound)
+    }
+
     /// Whether there is a material of this index.
     pub(crate) fn has(&self, index: MaterialIndex) -> bool {
         (index.0 as usize) < self.by_index.len()

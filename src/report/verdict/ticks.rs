@@ -6,8 +6,8 @@ use super::{Cause, Evidence, Trust, VerdictPart, at};
 use crate::Remedy;
 use crate::advice::rounded_down;
 use crate::estimate::EstimatedError;
-use crate::warnings::{FEWEST_TICKS, only_rests};
-use jostle_engine::tick::{Holder, State, far_travel};
+use crate::warnings::only_rests;
+use jostle_engine::tick::{FEWEST_TICKS_OF_CONTACT, Holder, State, far_travel};
 use jostle_language::numbers::number;
 
 /// The tick is above the critical one: springs gain energy at each tick.
@@ -86,7 +86,11 @@ pub(super) fn brief_contact(evidence: &Evidence) -> Option<Cause> {
         },
     );
     let what = format!("{whose} lasts only {ticks:.1} ticks");
-    (ticks < FEWEST_TICKS).then(|| Cause { trust: Trust::ButNot(VerdictPart::Impacts), what, remedy: evidence.finer() })
+    (ticks < FEWEST_TICKS_OF_CONTACT).then(|| Cause {
+        trust: Trust::ButNot(VerdictPart::Impacts),
+        what,
+        remedy: evidence.finer(),
+    })
 }
 
 /// A body moves farther in a tick than the smallest radius.
