@@ -18,6 +18,9 @@ const SHARE: f64 = 1e-10;
 const MOST_REFINEMENTS: usize = 40;
 /// An answer is good if the error of each row is below this share of the greatest right side.
 const ROUNDING: f64 = 1e-15;
+/// Rows that depend on each other contradict each other if the answer misses them by this share. A contradiction of the share [`SHARE`]
+/// alone makes forces as great as all others. So this one makes a thousandth of them.
+const CONTRADICTION: f64 = 1e-3 * SHARE;
 
 /// An island with held contacts and at most this many rows of joints is solved densely, which is faster there.
 const MOST_DENSE: usize = 32;
@@ -164,7 +167,12 @@ impl Solver {
         self.right.extend(self.structure.sparse.iter().map(|row| values[*row]));
         self.answer.clone_from(&self.right);
         self.structure.factor.solve(&mut self.answer);
-        if self.dependent {
+        // The enormous forces of a contradiction tell which row gives way, if one may.
+        let is_rigid = !self.structure.sparse.iter().any(|row| rows[*row].gives_way());
+        if self.dependent && self.refine(rows, bodies) > CONTRADICTION && is_rigid {
+            self.make_consistent(rows, bodies);
+            self.answer.clone_from(&self.right);
+            self.structure.factor.solve(&mut self.answer);
             self.refine(rows, bodies);
         }
         let Self { structure, equations, answer, .. } = self;
@@ -172,7 +180,22 @@ impl Solver {
         self.structure.sparse.iter().zip(&self.answer).for_each(|(row, value)| values[*row] = *value);
     }
 
-    fn refine(&mut self, rows: &[Row], bodies: &Bodies) {
+    /// Takes from the right sides what no force can give, as a body that turns cannot keep two points still. The softened matrix would
+    /// answer with an enormous force that does nothing. Each product leaves a share of rounding over [`SHARE`] of the contradiction. So two
+    /// make it harmless.
+    fn make_consistent(&mut self, rows: &[Row], bodies: &Bodies) {
+        for _ in 0..2 {
+            self.answer.clone_from(&self.right);
+            self.structure.factor.solve(&mut self.answer);
+            self.spread(rows, bodies);
+            for (index, &row) in self.structure.sparse.iter().enumerate() {
+                self.right[index] = self.gathered(&rows[row]);
+            }
+        }
+    }
+
+    /// Refines the answer. Returns the greatest error of a row that is left, as a share of the greatest right side.
+    fn refine(&mut self, rows: &[Row], bodies: &Bodies) -> f64 {
         let scale = self.right.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
         let mut before = f64::INFINITY;
         for _ in 0..MOST_REFINEMENTS {
@@ -183,12 +206,14 @@ impl Solver {
             }
             let worst = self.work.iter().fold(0.0_f64, |most, value| most.max(value.abs()));
             if worst <= ROUNDING * scale || worst >= 0.5 * before {
+                before = worst;
                 break;
             }
             before = worst;
             self.structure.factor.solve(&mut self.work);
             self.answer.iter_mut().zip(&self.work).for_each(|(answer, more)| *answer += more);
         }
+        if scale > 0.0 { before / scale } else { 0.0 }
     }
 
     /// The changes of velocities that the answer makes.
@@ -218,6 +243,53 @@ mod tests {
     use super::super::row::RowSide;
     use super::*;
     use bevy_ecs::entity::Entity;
+
+    /// Law: rows that contradict each other make no force that does nothing. Two welds hold one body: six rows for three freedoms. Forces
+    /// for right sides that no motion satisfies are no greater than those without the contradiction.
+    #[test]
+    fn a_contradiction_makes_no_enormous_forces() {
+        let bodies = Bodies {
+            entity: vec![Entity::PLACEHOLDER],
+            dynamic: vec![true],
+            mass: vec![0.2],
+            inertia: vec![1e-3],
+            ..Bodies::default()
+        };
+        let weld = |arm: DVec2| {
+            let side =
+                |direction: DVec2, lever: f64| RowSide { body: 0, direction, lever, force: direction, torque: lever };
+            let along = [DVec2::X, DVec2::Y].map(|direction| side(direction, arm.perp_dot(direction)));
+            let all = [along[0], along[1], side(DVec2::ZERO, 1.0)];
+            all.map(|side| Row { sides: [None, Some(side)], kind: RowKind::Position, ..Row::default() })
+        };
+        let arms = [DVec2::new(-0.39, -0.64), DVec2::new(0.15, -0.098)];
+        let rows: Vec<Row> = arms.into_iter().flat_map(weld).collect();
+        let response = |forces: &[f64]| -> Vec<f64> {
+            rows.iter()
+                .map(|row| rows.iter().zip(forces).map(|(other, f)| row.response(other, &bodies) * f).sum())
+                .collect()
+        };
+        let solved = |right: &[f64]| {
+            let (mut solver, mut values) = (Solver::default(), right.to_vec());
+            solver.prepare(&rows, &bodies);
+            assert!(solver.is_dependent());
+            solver.solve(&rows, &bodies, |row| row.share, &mut values);
+            values
+        };
+        let right = response(&[2.0, -1.0, 0.3, 0.0, 0.0, 0.0]);
+        let plain = solved(&right);
+        // Two points of a body that turns at 1 rad/s are to keep still.
+        let turns = [-0.39, -0.64, 0.0, 0.15, -0.098, 0.0];
+        let contradicted: Vec<f64> = right.iter().zip(turns).map(|(right, more)| right + more).collect();
+        let found = solved(&contradicted);
+        let size = |forces: &[f64]| forces.iter().fold(0.0_f64, |most, force| most.max(force.abs()));
+        assert!(size(&found) < 3.0 * size(&plain), "{found:?} instead of {plain:?}");
+        // The rest, each row by its diagonal, has no part that a force could give.
+        let left = rows.iter().zip(contradicted.iter().zip(response(&found)));
+        let left: Vec<f64> = left.map(|(row, (right, got))| (right - got) / row.response(row, &bodies)).collect();
+        let gain = size(&response(&left));
+        assert!(gain < 1e-6 * size(&response(&right)), "{gain:e}");
+    }
 
     /// Law: a border gives the forces that the whole dense matrix gives. A chain of forty links hangs by its ends; contacts hold
     /// some of them, one slides. Tolerance: rounding times the condition of the matrix, which is below 1e4.
