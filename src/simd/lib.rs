@@ -12,6 +12,7 @@
 )]
 
 mod allocator;
+mod counting;
 mod gather;
 mod level;
 mod quads;
@@ -29,6 +30,7 @@ use serde::{Deserialize, Serialize};
 
 pub use allocator::Lines;
 pub use allocator::give_back;
+pub use counting::Counting;
 pub use gather::{PairBlock, PairBlocks, PairedRecords, Pushes};
 pub use level::{Kernel, Level, run};
 pub use quads::{PairedQuads, QUAD, Quad, QuadPairs};

@@ -66,6 +66,8 @@ pub struct Island {
     pub joint_rows: Vec<JointRow>,
     blocks: Blocks,
     gradients: Gradients,
+    /// The memory of [`Island::loads`].
+    loads: Vec<f64>,
 }
 
 impl Island {
@@ -91,10 +93,10 @@ impl Island {
     }
 
     /// Whether all bodies are slow beside the velocities that their forces give them in `dt` seconds.
-    pub fn is_slow(&self, dt: f64) -> bool {
-        let loads = self.loads();
+    pub fn is_slow(&mut self, dt: f64) -> bool {
+        self.find_loads();
         let slow = |(mover, load): (&Mover, &f64)| mover.velocity.length() <= SLOW * load * mover.inverse_mass * dt;
-        self.begin.iter().zip(&loads).all(|both| both.0.inverse_mass == 0.0 || slow(both))
+        self.begin.iter().zip(&self.loads).all(|both| both.0.inverse_mass == 0.0 || slow(both))
     }
 
     /// Finds the forces for the `dt` seconds to come. `thorough`: sweeps take turns with conjugate gradients, which pays if all
@@ -140,17 +142,24 @@ impl Island {
         indices.map(move |(contact, &index)| Found { blocks, contact, index, movers: [begin, movers], dt }.outcome())
     }
 
-    /// For each mover the sum of the forces of its contacts and joints in newtons. Its rounding is judged by that.
-    pub fn loads(&self) -> Vec<f64> {
-        let mut loads = vec![0.0; self.movers.len()];
-        for (contact, &index) in self.contacts.iter().zip(&self.blocks.indices) {
-            let force = self.blocks.normals[index / BLOCK].force[index % BLOCK];
+    /// For each mover the sum of the forces of its contacts and joints in newtons, by [`Island::find_loads`]. Its rounding is judged by
+    /// that.
+    pub fn loads(&self) -> &[f64] {
+        &self.loads
+    }
+
+    /// Sums the loads.
+    pub fn find_loads(&mut self) {
+        let Self { movers, contacts, joint_rows, blocks, loads, .. } = self;
+        loads.clear();
+        loads.resize(movers.len(), 0.0);
+        for (contact, &index) in contacts.iter().zip(&blocks.indices) {
+            let force = blocks.normals[index / BLOCK].force[index % BLOCK];
             for end in [contact.ends.0, contact.ends.1] {
                 loads[end] += force + contact.noise / ROUNDING;
             }
         }
-        self.joint_rows.iter().for_each(|row| row.load(&mut loads));
-        loads
+        joint_rows.iter().for_each(|row| row.load(loads));
     }
 }
 

@@ -426,13 +426,14 @@ impl Choice<'_> {
             let each = island.movers.iter_mut().enumerate();
             each.for_each(|(index, mover)| frame.leave(mover, place_of(index, self.sink.bodies)));
         }
+        island.find_loads();
         let loads = island.loads();
         let bodies = &*self.sink.bodies;
         let stands = |(&body, (end, &load)): (&usize, (&Mover, &f64))| {
             let begin = Mover { velocity: bodies.velocity[body], spin: bodies.spin[body], ..*end };
             [&begin, end].into_iter().all(|mover| mover.stands(load, bodies.extent(body), self.dt))
         };
-        if members.list.iter().zip(island.movers.iter().zip(&loads).skip(1)).all(stands) {
+        if members.list.iter().zip(island.movers.iter().zip(loads).skip(1)).all(stands) {
             if N::SET_VALUED && joined.is_empty() {
                 self.share_out(cases, island);
             }

@@ -75,13 +75,17 @@ pub(super) fn each_place(
 
 /// Renames pairs after their current pieces at the beginning of a step, so that walks are short. If two pairs reach one
 /// point, the lists are renewed before the point counts twice.
-struct Walks;
+#[derive(Default)]
+struct Walks {
+    /// The present pairs; only its memory is kept.
+    now: Vec<SurfacePair>,
+}
 
 /// Watches for pairs that reach one point of a line, if the scene has lines.
 pub(super) fn watch(world: &mut World) {
     let mut state = world.resource_mut::<State>();
     if !state.bodies().lines.is_empty() {
-        state.add_model(Walks);
+        state.add_model(Walks::default());
     }
 }
 
@@ -111,7 +115,8 @@ impl Model for Walks {
 
     fn begin_step(&mut self, state: &mut State) {
         let State { bodies, bounds: Some(bounds), pairs: Some(pairs), .. } = state else { return };
-        let mut now = Vec::new();
+        let now = &mut self.now;
+        now.clear();
         for pair in &mut pairs.surfaces {
             let renamed = present(*pair, bodies);
             if matches!(pair.surface(bodies), Surface::Wall(wall) if bodies.walls[wall].line.is_some()) {
