@@ -8,7 +8,7 @@
 
 use super::redundant::{Equations, Share};
 use super::row::{Row, RowKind};
-use super::structure::Structure;
+use super::structure::{Structure, islands};
 use crate::world::Bodies;
 use glam::DVec2;
 
@@ -167,9 +167,7 @@ impl Solver {
         self.right.extend(self.structure.sparse.iter().map(|row| values[*row]));
         self.answer.clone_from(&self.right);
         self.structure.factor.solve(&mut self.answer);
-        // The enormous forces of a contradiction tell which row gives way, if one may.
-        let is_rigid = !self.structure.sparse.iter().any(|row| rows[*row].gives_way());
-        if self.dependent && self.refine(rows, bodies) > CONTRADICTION && is_rigid {
+        if self.dependent && self.refine(rows, bodies) > CONTRADICTION {
             self.make_consistent(rows, bodies);
             self.answer.clone_from(&self.right);
             self.structure.factor.solve(&mut self.answer);
@@ -182,14 +180,21 @@ impl Solver {
 
     /// Takes from the right sides what no force can give, as a body that turns cannot keep two points still. The softened matrix would
     /// answer with an enormous force that does nothing. Each product leaves a share of rounding over [`SHARE`] of the contradiction. So two
-    /// make it harmless.
+    /// make it harmless. An island with a row that may give way keeps its enormous force, which tells the row that does.
     fn make_consistent(&mut self, rows: &[Row], bodies: &Bodies) {
+        let right = self.right.clone();
         for _ in 0..2 {
             self.answer.clone_from(&self.right);
             self.structure.factor.solve(&mut self.answer);
             self.spread(rows, bodies);
             for (index, &row) in self.structure.sparse.iter().enumerate() {
                 self.right[index] = self.gathered(&rows[row]);
+            }
+        }
+        let gives_way = |island: &Vec<usize>| island.iter().any(|row| rows[*row].gives_way());
+        for row in islands(rows, bodies).into_iter().filter(gives_way).flatten() {
+            if let Ok(index) = self.structure.sparse.binary_search(&row) {
+                self.right[index] = right[index];
             }
         }
     }
