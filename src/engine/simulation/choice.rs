@@ -25,7 +25,7 @@ const TICKS_PER_HALF_PERIOD: f64 = 40.0;
 ///
 /// The ticks are stable with the many contacts of a packed body. Each of the bodies of mass `m` may have `n` contacts of stiffness `k`.
 /// Then `omega^2` is at most `2 n k/m` (Gershgorin), and `2 k/m` for a pair. Velocity Verlet is stable up to `omega dt = 2`, so for `n`
-/// up to `(2 * 7/pi)^2 = 19`. Equal discs have six.
+/// up to `(2 * 7/pi)^2 = 19`. Equal discs have six, each with a spring of friction beside it.
 const TICKS_PER_CONTACT_IN_A_CROWD: f64 = FEWEST_TICKS_OF_CONTACT;
 /// The same where forces of contacts depend on velocities. Velocity Verlet takes these with the velocity before the kick. Its error
 /// in what they take up is of the first order in the tick.

@@ -39,7 +39,7 @@ const DEEPEST: f64 = 0.02;
 /// heap to its bottom. Few bodies reach them.
 const DEEPEST_IN_A_CROWD: f64 = 0.05;
 
-/// A contact that lasts so many ticks is resolved to about a hundredth.
+/// A contact that lasts so many ticks is resolved to about a thousandth (`FEWEST_TICKS_OF_CONTACT`).
 const TICKS: f64 = 20.0;
 
 /// A wall whose normal is nearer to the vertical than this has its lowest point everywhere.
