@@ -303,8 +303,13 @@ fn carry<P: Ord + Copy, const GROUPS: usize>(
     let find = |pair: &P| {
         let mut found = NEW;
         for rest in &mut groups {
-            while rest.next_if(|(_, old)| old < pair).is_some() {}
-            found = rest.next_if(|(_, old)| old == pair).map_or(found, |(index, _)| index);
+            // The compiler does not always inline `next_if`, whose calls cost more than these looks.
+            while rest.peek().is_some_and(|(_, old)| old < pair) {
+                rest.next();
+            }
+            if let Some((index, _)) = rest.peek().filter(|(_, old)| old == pair) {
+                found = *index;
+            }
         }
         found
     };
